@@ -140,12 +140,15 @@ void SettingsPanel::showRow(const Row& row, bool inTable, const SettingEdit& edi
 
 void SettingsPanel::gather(const Settings& settings) {
     rows_.clear();
-    for (const SettingInfo* info : listedSettings()) {
-        const bool ours = std::any_of(prefixes_.begin(), prefixes_.end(), [&](const std::string& prefix) {
-            return info->key.compare(0, prefix.size(), prefix) == 0;
+    std::vector<const SettingInfo*> left = listedSettings();
+    for (const std::string& prefix : prefixes_) {
+        const auto ours = std::stable_partition(left.begin(), left.end(), [&](const SettingInfo* info) {
+            return info->key.compare(0, prefix.size(), prefix) != 0;
         });
-        if (!ours || info->key.find(filter_) == std::string::npos) continue;
-        rows_.push_back({info, labelOf(info->key), getSetting(settings, info->key)});
+        for (auto at = ours; at != left.end(); ++at)
+            if ((*at)->key.find(filter_) != std::string::npos)
+                rows_.push_back({*at, labelOf((*at)->key), getSetting(settings, (*at)->key)});
+        left.erase(ours, left.end());
     }
 }
 

@@ -18,7 +18,7 @@ using SettingEdit = std::function<void(const std::string& key, const std::string
 
 class SettingsPanel {
   public:
-    // All settings whose key starts with one of `prefixes` and holds `filter` (empty: all). `revision` grows
+    // All settings whose key starts with one of `prefixes`, in the order of these, and holds `filter` (empty: all). `revision` grows
     // when `settings` change: their texts are kept until then, for looking them up costs.
     void show(const Settings& settings, std::uint64_t revision, const std::vector<std::string>& prefixes,
               const std::string& filter, const SettingEdit& edit);

@@ -13,7 +13,7 @@ namespace conelight::program {
 
 std::vector<LeftPanel::Stage> LeftPanel::stagesOf(const std::string& mode) {
     return {{"Scene", {}},
-            {"Voxels", {"voxels.", "view.voxel"}},
+            {"Voxels", {"voxels.size", "view.voxel", "voxels."}},
             {"Light", {"light.", "view.light"}},
             {"Gather", {mode + "."}},
             {"Image", {"image.", "view.wireframe"}}};
