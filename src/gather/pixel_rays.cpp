@@ -37,6 +37,19 @@ const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays",
 const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered coat", "gathered occlusion",
                               "gathered lamps"};
 
+// How many passes lib/temporal.glsl averages, far from what `changed` and there. Where that may be anywhere, few everywhere.
+void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed) {
+    const int longest = std::max(pass.longest, 1);
+    const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
+    constants.longestMean = static_cast<float>(changed ? longest : shortest);
+    constants.shortestMean = static_cast<float>(shortest);
+    constants.shortestLobeMean = changed && pass.shortestOfLobes > 0
+                                     ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
+                                     : constants.shortestMean;
+    if (!changed) return;
+    light::putPlaces(constants, *changed);
+}
+
 }  // namespace
 
 void RayInputs::declare(gl::Inputs& inputs) const {
@@ -65,19 +78,6 @@ void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstant
     constants.oldUp = view.viewUp;
     constants.oldParallel = view.parallel;
     constants.planeTolerance = kPlaneTolerance * grid.voxelSize;
-}
-
-// Where what changed last may be anywhere, means are short everywhere.
-void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed) {
-    const int longest = std::max(pass.longest, 1);
-    const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
-    constants.longestMean = static_cast<float>(changed ? longest : shortest);
-    constants.shortestMean = static_cast<float>(shortest);
-    constants.shortestLobeMean = changed && pass.shortestOfLobes > 0
-                                     ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
-                                     : constants.shortestMean;
-    if (!changed) return;
-    light::putPlaces(constants, *changed);
 }
 
 // One that reaches behind the eye may be anywhere.

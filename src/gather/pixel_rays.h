@@ -66,9 +66,6 @@ gl::Texture makePixelPicture(int width, int height, const char* label);
 void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstants& view,
                      const voxels::VoxelGrid& grid);
 
-// How many passes lib/temporal.glsl averages, far from what `changed` and there.
-void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed);
-
 // About the boxes of all instances that count, in whole groups of 8 pixels; all of a host's picture. Corners nearer than
 // `nearest`, m, are behind the eye.
 PixelRectangle rectangleOf(const view::Surfaces& surfaces, const scene::GpuScene& scene, float nearest,
