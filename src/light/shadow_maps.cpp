@@ -131,7 +131,7 @@ std::vector<Aabb> ShadowMaps::Impl::changedBoxes(const scene::GpuScene& scene) c
     std::vector<Aabb> boxes;
     for (std::size_t i = 0; i < scene.instances().size(); ++i) {
         const bool added = i >= revisions.size();
-        if (!added && revisions[i] == scene.instanceRevision(i)) continue;
+        if (!added && revisions[i] == scene.casterRevision(i)) continue;
         for (const Aabb& box : {added ? Aabb{} : casterBoxes[i], casterBox(scene, i)})
             if (!box.empty()) boxes.push_back(box);
     }
@@ -144,7 +144,7 @@ void ShadowMaps::Impl::remember(const scene::GpuScene& scene, const std::vector<
     revisions.resize(scene.instances().size());
     casterBoxes.resize(revisions.size());
     for (std::size_t i = 0; i < revisions.size(); ++i) {
-        revisions[i] = scene.instanceRevision(i);
+        revisions[i] = scene.casterRevision(i);
         casterBoxes[i] = casterBox(scene, i);
     }
 }

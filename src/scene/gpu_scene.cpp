@@ -10,6 +10,18 @@
 #include "scene/packed_mesh.h"
 
 namespace conelight::scene {
+namespace {
+
+// Whether two materials cast the same shadow, of triangles as they are.
+bool hidesAlike(const Material& a, const Material& b) {
+    if (a.alphaMode != b.alphaMode) return false;
+    return a.alphaMode == AlphaMode::Opaque ||
+           (a.alphaCutoff == b.alphaCutoff && a.baseColor.a == b.baseColor.a &&
+            a.baseColorTexture == b.baseColorTexture);
+}
+
+}  // namespace
+
 GpuScene::GpuScene(const Scene& source) : source_(source) {
     source_.validate();
     uploadMeshes();
@@ -67,6 +79,7 @@ void GpuScene::uploadInstances() {
     instanceIndexBuffer_ = gl::Buffer(instanceIndices, "scene instance indices");
     instanceBounds_.resize(instances_.size());
     instanceRevisions_.resize(instances_.size(), identity_);
+    casterRevisions_.resize(instances_.size(), identity_);
     shapeRevisions_.resize(instances_.size(), identity_);
     shapesBefore_.resize(instances_.size());
     entryRevisions_.resize(instances_.size(), identity_);
@@ -160,7 +173,7 @@ void GpuScene::setInstance(std::size_t index, const Instance& instance) {
     if (!moves && !recolored && g.flags == flagsBefore) return;
     uploadInstance(index);
     if (recolored) sortDraws();
-    geometryRevision_ = instanceRevisions_[index] = base::Revision::next();
+    geometryRevision_ = instanceRevisions_[index] = casterRevisions_[index] = base::Revision::next();
 }
 
 void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
@@ -200,12 +213,13 @@ void GpuScene::reshape(std::size_t index) {
         place(i, g.worldFromObject);
         uploadInstance(i);
         shapesBefore_[i] = shapeRevisions_[i];
-        instanceRevisions_[i] = shapeRevisions_[i] = geometryRevision_;
+        instanceRevisions_[i] = casterRevisions_[i] = shapeRevisions_[i] = geometryRevision_;
     }
 }
 
 void GpuScene::setMaterial(std::size_t index, const Material& material) {
     const bool turnsGlass = isTransmissive(material) != isTransmissive(source_.materials[index]);
+    const bool sameShadow = !turnsGlass && hidesAlike(material, source_.materials[index]);
     source_.materials[index] = material;
     materials_[index] = packedMaterial(material, source_.textures);
     materialTextures_[index] = texturesOf(material);
@@ -214,6 +228,7 @@ void GpuScene::setMaterial(std::size_t index, const Material& material) {
     for (std::size_t i = 0; i < instances_.size(); ++i)
         if (instances_[i].material == index) {
             instanceRevisions_[i] = geometryRevision_;
+            if (!sameShadow) casterRevisions_[i] = geometryRevision_;
             if (!turnsGlass) continue;
             setFlags(i, source_.instances[i]);
             uploadInstance(i);
@@ -243,7 +258,7 @@ void GpuScene::touchUsersOf(std::size_t texture) {
     for (std::size_t i = 0; i < instances_.size(); ++i)
         if (materialTextures_[instances_[i].material].has(texture) ||
             materials_[instances_[i].material].transmissionLayer == static_cast<int>(texture))
-            instanceRevisions_[i] = geometryRevision_;
+            instanceRevisions_[i] = casterRevisions_[i] = geometryRevision_;
 }
 
 void GpuScene::setLights(const std::vector<Light>& lights) {
@@ -279,6 +294,7 @@ void GpuScene::setBakedLight(std::shared_ptr<const BakedLight> baked) {
 void GpuScene::touch() {
     geometryRevision_ = base::Revision::next();
     std::fill(instanceRevisions_.begin(), instanceRevisions_.end(), geometryRevision_);
+    std::fill(casterRevisions_.begin(), casterRevisions_.end(), geometryRevision_);
 }
 
 const Aabb& GpuScene::bounds() const {

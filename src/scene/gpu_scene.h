@@ -113,6 +113,8 @@ class GpuScene {
     // Raised by each change that voxels or shadows may show: of an instance (transform, flags, material, what
     // its material says), of any instance, of the list of lights, of sky or environment.
     base::Revision instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
+    // Raised by those of them that its shadow may show, not by what its material reflects or emits.
+    base::Revision casterRevision(std::size_t instance) const { return casterRevisions_[instance]; }
     // Raised when the vertices of the instance's mesh change.
     base::Revision shapeRevision(std::size_t instance) const { return shapeRevisions_[instance]; }
     // Of the vertices that the mesh had before those, and where they lie in verticesBefore; none: they are not known.
@@ -204,7 +206,8 @@ class GpuScene {
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
     std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
-    std::vector<base::Revision> instanceRevisions_, shapeRevisions_, shapesBefore_, entryRevisions_;
+    std::vector<base::Revision> instanceRevisions_, casterRevisions_, shapeRevisions_, shapesBefore_,
+        entryRevisions_;
     std::vector<char> removed_;  // per instance
     std::uint32_t vertexCount_ = 0, indexCount_ = 0, beforeCount_ = 0;
     std::vector<std::optional<glm::mat4>> bakedPlaces_;  // where baked light has an instance

@@ -187,7 +187,8 @@ std::size_t GpuScene::addInstance(const Instance& instance) {
         triangleCount_ += triangles;
         source_.instances.emplace_back();
         for (auto* boxes : {&instanceObjectBounds_, &instanceBounds_}) boxes->emplace_back();
-        for (auto* revisions : {&instanceRevisions_, &shapeRevisions_, &shapesBefore_, &entryRevisions_})
+        for (auto* revisions :
+             {&instanceRevisions_, &casterRevisions_, &shapeRevisions_, &shapesBefore_, &entryRevisions_})
             revisions->emplace_back();
         instanceParts_.push_back(0);
         removed_.push_back(0);
@@ -226,8 +227,8 @@ void GpuScene::putInstance(std::size_t index, const Instance& instance) {
     drawOrder_.insert(std::lower_bound(drawOrder_.begin(), drawOrder_.end(), number,
                                        [&](std::uint32_t a, std::uint32_t b) { return isDrawnBefore(a, b); }),
                       number);
-    geometryRevision_ = instanceRevisions_[index] = shapeRevisions_[index] = entryRevisions_[index] =
-        base::Revision::next();
+    geometryRevision_ = instanceRevisions_[index] = casterRevisions_[index] = shapeRevisions_[index] =
+        entryRevisions_[index] = base::Revision::next();
 }
 
 void GpuScene::removeInstance(std::size_t index) {

@@ -80,6 +80,32 @@ TEST_F(ShadowUpdates, OnlyMapsThatTheChangeTouchesAreDrawn) {
     EXPECT_EQ(redrawn(maps, gpu), 0);
 }
 
+// A material that glows or is painted draws no map anew, as in films of a day; one that lets light through draws its own.
+TEST_F(ShadowUpdates, ColoursOfCastersDrawNoMaps) {
+    Scene scene;
+    addInstance(scene, quadMesh({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}), {});
+    Mesh bent = quadMesh({2, 0.5f, 0}, {0.4f, 0, 0}, {0, 0.4f, 0});
+    bent.positions[2].z += 0.1f;  // no rectangle of the light table
+    addInstance(scene, bent, {.name = "card"});
+    scene.lights.push_back({.position = {0, 1, 0}});
+    scene::GpuScene gpu(scene);
+    light::Lights maps;
+    EXPECT_EQ(redrawn(maps, gpu), 6);
+    Material card = scene.materials[static_cast<std::size_t>(scene.instances[1].material)];
+    const auto recoloured = [&](auto change) {
+        change(card);
+        gpu.setMaterial(static_cast<std::size_t>(scene.instances[1].material), card);
+        return redrawn(maps, gpu);
+    };
+    EXPECT_EQ(recoloured([](Material& m) { m.emission = glm::vec3(5); }), 0);
+    EXPECT_EQ(recoloured([](Material& m) {
+                  m.baseColor = {1, 0, 0, 0.3f};
+              }),
+              0);  // opaque, whatever its alpha
+    EXPECT_EQ(recoloured([](Material& m) { m.alphaMode = AlphaMode::Blend; }), 1);
+    EXPECT_EQ(recoloured([](Material& m) { m.baseColor.a = 0.8f; }), 1);
+}
+
 // A shell with every other patch left out, around a lamp: each of its six maps sees a sixth of the mesh, some
 // parts of it and not the others. The shadows on the walls are those of the shell in pieces, which are drawn
 // whole.
