@@ -9,11 +9,17 @@
 // Each is one segment, clipped by slabs (Liang and Barsky 1984). No list, no branch, the same work in each
 // lane. The CPU reference (tests/support/reference_voxelizer.h) uses Sutherland-Hodgman.
 //
+// CLIP_SOLID_ANGLE 1: also how large the polygon looks from a point. Of a fan of triangles from a point of its plane to
+// each piece of the boundary, signed, the solid angles add up to it, in any order as well.
+//
 // Borders: the cube is half-open, -1/2 in and +1/2 out, so a triangle that lies exactly in a side belongs to
 // one voxel. Tiny gaps where rounding makes neighbouring segments miss each other cost area of the order of
 // 1e-7.
 #include "lib/dot.glsl"
 
+#ifndef CLIP_SOLID_ANGLE
+#define CLIP_SOLID_ANGLE 0
+#endif
 const float kLargestSection = 1.41422;  // sqrt 2, rounded up
 
 struct ClippedPolygon {
@@ -21,7 +27,14 @@ struct ClippedPolygon {
     vec3 center;
     vec3 lower;  // bounds
     vec3 upper;
+#if CLIP_SOLID_ANGLE
+    float solidAngle;  // sr, its sign that of the side it is seen from
+#endif
 };
+#if CLIP_SOLID_ANGLE
+vec3 clipEye;     // from where; from the cube's centre in units of its edge
+vec3 clipMiddle;  // a point of the plane
+#endif
 
 // Coordinates permuted so that z is the axis in which the normal is largest; cyclic, so orientation is kept.
 int dominantAxis(vec3 n) {
@@ -38,12 +51,31 @@ struct BoundarySum {
     vec2 moment;
     vec3 lower;
     vec3 upper;
+#if CLIP_SOLID_ANGLE
+    float solidAngle;
+    vec3 eye, middle;
+#endif
 };
+
+#if CLIP_SOLID_ANGLE
+// Of a triangle, seen from where its corners are counted from: van Oosterom and Strackee, "The Solid Angle of a Plane
+// Triangle", 1983.
+float solidAngleOf(vec3 a, vec3 b, vec3 c) {
+    float la = length(a), lb = length(b), lc = length(c);
+    float across = dot(a, cross(b, c));
+    float along = la * lb * lc + dot(a, b) * lc + dot(c, a) * lb + dot(b, c) * la;
+    return across == 0.0 ? 0.0 : 2.0 * atan(across, along);
+}
+#endif
 
 void addSegment(inout BoundarySum sum, vec3 a, vec3 b, bool inside, float orientation) {
     float twice = inside ? (a.x * b.y - a.y * b.x) * orientation : 0.0;
     sum.twiceArea += twice;
     sum.moment += (a.xy + b.xy) * twice;
+#if CLIP_SOLID_ANGLE
+    float seen = solidAngleOf(sum.middle - sum.eye, a - sum.eye, b - sum.eye);
+    sum.solidAngle += inside ? seen * orientation : 0.0;
+#endif
     sum.lower = inside ? min(sum.lower, min(a, b)) : sum.lower;
     sum.upper = inside ? max(sum.upper, max(a, b)) : sum.upper;
 }
@@ -159,6 +191,9 @@ ClippedPolygon polygonOf(BoundarySum sum, vec3 p, vec3 normal, int axis) {
     polygon.center = fromDominant(vec3(center, height), axis);
     polygon.lower = fromDominant(sum.lower, axis);
     polygon.upper = fromDominant(sum.upper, axis);
+#if CLIP_SOLID_ANGLE
+    polygon.solidAngle = sum.solidAngle;
+#endif
     return polygon;
 }
 
@@ -174,7 +209,12 @@ ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
 
     // Sum over the boundary: pieces of the three edges, pieces in the six sides.
     ClippedTriangle t = ClippedTriangle(clippedEdge(a, b), clippedEdge(b, c), clippedEdge(c, a));
+#if CLIP_SOLID_ANGLE
+    BoundarySum sum = BoundarySum(0.0, vec2(0.0), vec3(1.0), vec3(-1.0), 0.0, toDominant(clipEye, axis),
+                                  toDominant(clipMiddle, axis));
+#else
     BoundarySum sum = BoundarySum(0.0, vec2(0.0), vec3(1.0), vec3(-1.0));
+#endif
     addEdge(sum, t.ab);
     addEdge(sum, t.bc);
     addEdge(sum, t.ca);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Lamps that are drawn by chance: the tree over them (src/light/lamp_tree.h, lib/lamp_tree.glsl), and the pass that lights
-// faces by it (light/lamp_faces.comp.glsl).
+// Lamps: the voxels about each (light/near_lamps.comp.glsl), and those that are drawn by chance: the tree over them
+// (src/light/lamp_tree.h, lib/lamp_tree.glsl), and the pass that lights faces by it (light/lamp_faces.comp.glsl).
 //
 // Names: lampNodes (usamplerBuffer RGBA32UI: three texels a node), lampSlots (usamplerBuffer R32UI: a lamp's number in the
 // light table), lampTable (usamplerBuffer RGBA32UI: the light table, seven texels a light).
 #pragma once
 #include "shared/prelude.h"
 #define LAMP_RAYS 4  // of a draw
+// Edge of the block of voxels about a lamp whose faces get its light as a mean over their triangles, voxels; odd. Farther
+// away a face's middle stands for it. builtin:town at night errs alike with 3, 5 and 7.
+#define NEAR_LAMP_BLOCK 5
 
 CONELIGHT_SHARED_BEGIN
 

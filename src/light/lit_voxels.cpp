@@ -7,6 +7,7 @@
 #include "gl/gl.h"
 #include "gl/pace.h"
 #include "light/inject_light.h"
+#include "light/near_lamps.h"
 #include "shared/irradiance.h"
 
 namespace conelight::light {
@@ -99,6 +100,10 @@ base::Steps LitVoxels::putDirectLight(const gl::Device& device, const Inputs& in
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
     co_await gl::rest(device);
+    // Where rays look lamps up where they hit, that is a point of the face.
+    const bool exact = inputs.lights.hitKey(inputs.scene, settings_.exactHits).exact;
+    if (!exact && !inputs.lights.drawsLamps())
+        lightNearLamps(device, {inputs.scene, inputs.lights, inputs.voxels, directLight_}, faces_);
     if (inputs.lights.drawsLamps())
         co_await lamps_.beginInSteps(device, {inputs.scene, inputs.lights, inputs.voxels, faces_});
 }
@@ -161,7 +166,7 @@ void LitVoxels::declare(gl::Inputs& inputs) const {
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs = injectLightProgramDescs();
-    for (const auto& more : {EmissionFit::programDescs(), LampFaces::programDescs(),
+    for (const auto& more : {EmissionFit::programDescs(), nearLampsProgramDescs(), LampFaces::programDescs(),
                              IrradianceCache::programDescs(), Caustics::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;

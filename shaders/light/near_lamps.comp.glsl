@@ -1,0 +1,197 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Voxels about a lamp: the light of points and spots on their faces, as a mean over what of the triangles they hold
+// (docs/theory/3_light.md, "Lamps near voxels"). A face stands for surfaces all about the lamp with one point and one
+// normal; light/inject_light.comp.glsl asks there, which may be next to the lamp where no surface is.
+//
+// One invocation per lamp, level, voxel of the block around it, and direction; of several lamps about one voxel the first
+// does it.
+layout(local_size_x = 64) in;  // before linear_index, which asks for it
+#define NEAR_TRIANGLES 1
+#define CLIP_SOLID_ANGLE 1
+// For glass and triangles, before the others.
+#include "lib/dot.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
+#include "lib/clip.glsl"
+#include "lib/lights.glsl"
+#include "lib/linear_index.glsl"
+#include "lib/ray_query.glsl"
+#include "lib/voxel_grid.glsl"
+#include "lib/voxel_record.glsl"
+#include "shared/irradiance.h"
+#include "shared/lamps.h"
+layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
+layout(std430) buffer LitFaceTable { LitFace litFaces[]; };
+layout(std430) readonly buffer CachedDirect { uint cachedDirect[]; };
+uniform usamplerBuffer voxelFaceMaterials;
+
+const float kLeastArea = 4.0 / 65535.0;  // that a face can tell (lib/voxel_record.glsl), voxel sides
+
+// A voxel in the coordinates of its level.
+struct Cell {
+    ivec3 voxel;
+    vec4 place;  // of the level: corner and edge, voxels of level 0
+};
+
+vec3 cellFromWorld(Cell cell, vec3 world) {
+    return (gridFromWorld(world) - cell.place.xyz) / cell.place.w - (vec3(cell.voxel) + 0.5);
+}
+vec3 worldFromCell(Cell cell, vec3 p) {
+    return worldFromGrid(cell.place.xyz + cell.place.w * (vec3(cell.voxel) + 0.5 + p));
+}
+bool isNear(Cell cell, vec3 lamp) {
+    ivec3 off = abs(ivec3(floor(cellFromWorld(cell, lamp) + 0.5)));
+    return 2 * max(off.x, max(off.y, off.z)) < NEAR_LAMP_BLOCK;
+}
+
+// A fragment (voxels/surface_clip.comp.glsl).
+struct Piece {
+    float area;   // voxel sides
+    vec3 normal;  // unit
+    vec3 center;  // from the voxel's centre, voxels
+    bool twoSided;
+    int triangle;
+};
+
+Piece pieceOf(int slot) {
+    uvec4 a = texelFetch(voxelFragments, 2 * slot);
+    uvec4 b = texelFetch(voxelFragments, 2 * slot + 1);
+    vec3 n = vec3(unpackSnorm2x16(a.w), unpackSnorm2x16(b.x).x);
+    vec3 center = vec3(b.x >> 16, b.y & 0xffffu, b.y >> 16) * (1.0 / 65535.0) - 0.5;
+    return Piece(uintBitsToFloat(a.y), n / max(length(n), 1e-6), center, (a.z & 0x40000000u) != 0u,
+                 int(texelFetch(voxelPairs, slot).x));
+}
+
+// Solid angle of a piece, seen from a lamp, all in voxels from the voxel's centre; and its whole area.
+vec2 pieceSeen(Cell cell, Piece piece, vec3 lamp) {
+    TriangleCorners c = triangleCorners(piece.triangle);
+    vec3 q0 = (c.origin - cell.place.xyz) / cell.place.w - (vec3(cell.voxel) + 0.5);
+    vec3 e1 = c.edge1 / cell.place.w, e2 = c.edge2 / cell.place.w;
+    vec3 n = cross(e1, e2);
+    clipEye = lamp;
+    clipMiddle = piece.center;
+    ClippedPolygon polygon = clipToVoxel(q0, q0 + e1, q0 + e2, n / max(length(n), 1e-20));
+    return vec2(abs(polygon.solidAngle), polygon.area);
+}
+
+// What a lamp sends to a piece, W/m^2 over its area.
+vec3 pieceIrradiance(Cell cell, Piece piece, vec3 normal, uint number) {
+    Light light = lights[number];
+    vec3 lamp = cellFromWorld(cell, light.position);
+    vec3 position = worldFromCell(cell, piece.center);
+    vec3 l = light.position - position;
+    float d2 = max(dot(l, l), 1e-12);
+    l *= inversesqrt(d2);
+    if (dot(lamp - piece.center, normal) <= 0.0) return vec3(0.0);
+    float edge = cell.place.w * grid.voxelSize;
+    vec2 seen = pieceSeen(cell, piece, lamp);
+    Receiver r = Receiver(position, normal, normal, normal, vec2(0.0));
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    if (number < lighting.lightEnds.x)
+        visible = pointVisibility(r, light, number);
+    else
+        visible = spotVisibility(r, light, number);
+#endif
+    vec3 intensity = light.intensity * (distanceFalloff(light, d2) * d2 * spotFalloff(light, l) * visible);
+    return throughGlass(intensity, r, l, sqrt(d2)) * (seen.x / max(seen.y * edge * edge, 1e-12));
+}
+
+// Of one of the lamps about the voxel, sum over the pieces that look to a direction: W/m^2 times their part of it, voxel
+// sides.
+vec3 sumOfPieces(Cell cell, uint chain, vec3 direction, uint number) {
+    vec3 sum = vec3(0.0);
+    uint link = chain;
+    while (link != 0u) {
+        int slot = int(link) - 1;
+        link = texelFetch(voxelFragments, 2 * slot).x;
+        Piece piece = pieceOf(slot);
+        float facing = dot(piece.normal, direction);
+        bool counts = piece.area > 0.0 && (piece.twoSided ? abs(facing) : facing) > VOXEL_FACING_THRESHOLD;
+        if (!counts) continue;
+        vec3 normal = facing < 0.0 ? -piece.normal : piece.normal;
+        sum += piece.area * facing * facing * pieceIrradiance(cell, piece, normal, number);
+    }
+    return sum;
+}
+
+// Of all these lamps. `area`: what of the pieces is the face's own, which is less than all where some hide others.
+vec3 nearIrradiance(Cell cell, uint chain, vec3 direction, float area) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < lighting.lightEnds.y; ++i)
+        if (isNear(cell, lights[i].position)) sum += sumOfPieces(cell, chain, direction, i);
+    return sum / max(area, kLeastArea);
+}
+
+// Of all others, at the middle of a face.
+vec3 farIrradiance(Cell cell, FaceRecord face) {
+    vec3 normal = faceNormal(face);
+    Receiver receiver = Receiver(worldFromGrid(faceCenter(face)), normal, normal, normal, kShadowVoxelLift);
+    Brdf none;
+    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
+    for (uint i = 0u; i < lighting.lightEnds.y; ++i) {
+        if (isNear(cell, lights[i].position)) continue;
+        if (i < lighting.lightEnds.x)
+            addPoint(sum, false, receiver, none, lights[i], i);
+        else
+            addSpot(sum, false, receiver, none, lights[i], i);
+    }
+    FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, false, receiver, none, light, number))
+    return sum.irradiance;
+}
+
+void main() {
+    // The voxel, of the block around a lamp
+    const int block = NEAR_LAMP_BLOCK;
+#if NESTED_GRIDS
+    uint levels = voxelLevels.count;
+    ivec3 size = ivec3(levelSize());
+#else
+    const uint levels = 1u;
+    ivec3 size = gridSize();
+#endif
+    int direction = int(linearIndex() % 6u);
+    uint index = linearIndex() / 6u;
+    int place = int(index % uint(block * block * block));
+    int level = int(index / uint(block * block * block) % levels);
+    uint lamp = index / (uint(block * block * block) * levels);
+    if (lamp >= lighting.lightEnds.y) return;
+    Cell cell;
+#if NESTED_GRIDS
+    cell.place = levelPlace(level);
+#else
+    cell.place = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
+    cell.voxel = ivec3(0);
+    cell.voxel = ivec3(floor(cellFromWorld(cell, lights[lamp].position) + 0.5)) +
+                 ivec3(place % block, place / block % block, place / (block * block)) - block / 2;
+    if (any(lessThan(cell.voxel, ivec3(0))) || any(greaterThanEqual(cell.voxel, size))) return;
+
+        // Its face
+#if NESTED_GRIDS
+    ivec3 stored = storedVoxel(cell.voxel, level);
+#else
+    ivec3 stored = cell.voxel;
+#endif
+    uvec4 word = imageLoad(voxelBrickImage, stored >> 2);
+    if (!brickHas(word.xy, bitOfVoxel(stored))) return;
+    int recordIndex = int(voxelRecordIndex(word, bitOfVoxel(stored)));
+    uint record = texelFetch(voxelRecords, recordIndex).x;
+    if ((faceDirections(record) >> direction & 1u) == 0u) return;
+    for (uint i = 0u; i < lamp; ++i)
+        if (isNear(cell, lights[i].position)) return;
+
+            // Light it
+#if GLASS
+    veilNear = kVeilNearVoxels * cell.place.w * grid.voxelSize;
+#endif
+    uint face = faceIndex(record, direction);
+    uint chain = texelFetch(voxelChains, recordIndex).x;
+    float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
+    vec3 irradiance =
+        nearIrradiance(cell, chain, directionVector(direction), area) + farIrradiance(cell, faces[face]);
+    vec3 reflectance = unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
+    litFaces[face].radiance = packRgb9e5(unpackRgb9e5(cachedDirect[face]) + reflectance * irradiance);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "light/near_lamps.h"
+
+#include <algorithm>
+
+#include "gl/gl.h"
+#include "shared/lamps.h"
+
+namespace conelight::light {
+namespace {
+
+constexpr std::size_t kFacesOfBlock = std::size_t{6} * NEAR_LAMP_BLOCK * NEAR_LAMP_BLOCK * NEAR_LAMP_BLOCK;
+
+// Loops over the table, however many lamps of which kind there are. Maps are asked without a filter: means blur edges.
+LightKey nearKey(LightKey lights) {
+    lights.fixed = false;
+    lights.point = lights.spot = lights.directional = 1;
+    lights.rect = lights.filter = 0;
+    return lights;
+}
+
+gl::ProgramDesc nearLampsDesc(const LightKey& lights) {
+    return {{"light/near_lamps.comp.glsl"}, lights.defines()};
+}
+
+}  // namespace
+
+void lightNearLamps(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces) {
+    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
+    const std::size_t lamps = inputs.lights.ends().y;
+    if (lamps == 0 || surface.mostFaces() == 0) return;
+    const gl::PassScope pass(device.profiler, "light of near lamps");
+    gl::Inputs given;
+    given.add(inputs.scene)
+        .add(inputs.lights)
+        .add(inputs.voxels)
+        .add(faces)
+        .storage("CachedDirect", inputs.cachedDirect);
+    surface.declareTriangles(given);
+    const auto levels = static_cast<std::size_t>(std::max(surface.grid().levels, 1));
+    device.get(nearLampsDesc(nearKey(inputs.lights.key())))
+        .dispatchLinear(given, lamps * levels * kFacesOfBlock);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+}
+
+std::vector<gl::ProgramDesc> nearLampsProgramDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    for (const LightKey& lights : LightKey::all())
+        if (!lights.fixed && lights == nearKey(lights)) descs.push_back(nearLampsDesc(lights));
+    return descs;
+}
+
+}  // namespace conelight::light
