@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <type_traits>
 
@@ -241,6 +242,20 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
     for (const auto& [key, value] : scene.settings) report.line("  {} = {}", key, value);
     for (const std::string& note : scene.notes) report.line("note       {}", note);
     return report.take();
+}
+
+std::string describeObjects(const Scene& scene) {
+    std::vector<std::string> names;
+    std::map<std::string, std::size_t> counts;
+    for (const Instance& instance : scene.instances)
+        if (++counts[instance.name] == 1 && !instance.name.empty()) names.push_back(instance.name);
+    std::string out = fmt::format("objects    {}\n", names.size());
+    const auto line = [&](const std::string& text, std::size_t count) {
+        out += "  " + text + (count > 1 ? fmt::format(", {} instances\n", count) : "\n");
+    };
+    for (const std::string& name : names) line(oneLine(name), counts[name]);
+    if (const std::size_t unnamed = counts[""]) line("(unnamed)", unnamed);
+    return out;
 }
 
 }  // namespace conelight::io

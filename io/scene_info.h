@@ -16,4 +16,8 @@ const char* lightUnit(LightType type);
 // memory, lights with type and unit, cameras, sky, settings, notes. Long lists are cut after `maxRows` rows.
 std::string describeScene(const Scene& scene, std::size_t maxRows = 32);
 
+// A line for each name of an instance, in order of the first that has it, and how many have it. Instances without a name
+// are one line at the end.
+std::string describeObjects(const Scene& scene);
+
 }  // namespace conelight::io

@@ -8,10 +8,12 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "command.h"
 #include "conelight/error.h"
 #include "conelight/shaders.h"
+#include "film_along.h"
 #include "outputs.h"
 #include "scene_upload.h"
 #include "script_run.h"
@@ -30,6 +32,7 @@ struct BenchOptions {
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
     std::string clip;    // empty: none
+    std::string path;    // file of a camera path; empty: none
     ViewOptions view;
     ScriptOptions script;
 };
@@ -49,13 +52,22 @@ nlohmann::ordered_json spreadJson(const Spread& s) {
     return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
 }
 
+// What a pass takes: the median of the frames that have it. Of all frames: the mean, and the most with its frame, from 1.
+struct PassCost {
+    std::string name;
+    double cpuMs, gpuMs;
+    double mean = 0, most = 0;
+    std::size_t mostAt = 0;
+};
+
 // The frames of one mode.
 struct Run {
     std::string mode;
     Settings settings;
     std::vector<FrameStats> frames;
-    FrameStats counted;                     // one extra frame with lookups counted
-    std::vector<DispatchStats> dispatches;  // of another, with --shaders
+    std::vector<std::optional<double>> hours;  // of each frame, along a path
+    FrameStats counted;                        // one extra frame with lookups counted
+    std::vector<DispatchStats> dispatches;     // of another, with --shaders
     std::shared_ptr<const BakedLight> baked;
 
     Spread of(double FrameStats::*field) const {
@@ -64,12 +76,13 @@ struct Run {
         return spread(values);
     }
     // Passes in order of first appearance; those of equal name within a frame are added up.
-    std::vector<std::pair<std::string, std::pair<double, double>>> passes() const {
+    std::vector<PassCost> passes() const {
         std::vector<std::string> order;
         std::map<std::string, std::vector<double>> cpu, gpu;
-        for (const FrameStats& frame : frames) {
+        std::map<std::string, PassCost> costs;
+        for (std::size_t i = 0; i < frames.size(); ++i) {
             std::map<std::string, std::pair<double, double>> sums;
-            for (const PassStats& pass : frame.passes) {
+            for (const PassStats& pass : frames[i].passes) {
                 if (cpu.find(pass.name) == cpu.end()) order.push_back(pass.name);
                 cpu[pass.name];
                 sums[pass.name].first += pass.cpuMs;
@@ -78,11 +91,18 @@ struct Run {
             for (const auto& [name, sum] : sums) {
                 cpu[name].push_back(sum.first);
                 gpu[name].push_back(sum.second);
+                PassCost& cost = costs[name];
+                cost.mean += sum.first / static_cast<double>(frames.size());
+                if (sum.first > cost.most) cost.most = sum.first, cost.mostAt = i + 1;
             }
         }
-        std::vector<std::pair<std::string, std::pair<double, double>>> result;
-        for (const std::string& name : order)
-            result.push_back({name, {spread(cpu[name]).median, spread(gpu[name]).median}});
+        std::vector<PassCost> result;
+        for (const std::string& name : order) {
+            PassCost& cost = result.emplace_back(costs[name]);
+            cost.name = name;
+            cost.cpuMs = spread(cpu[name]).median;
+            cost.gpuMs = spread(gpu[name]).median;
+        }
         return result;
     }
 };
@@ -99,14 +119,17 @@ void printRun(const std::string& scene, const BenchOptions& options, const Run& 
     const Spread wall = run.of(&FrameStats::wallMs);
     const std::string moves = !options.moving.empty() ? "  moving " + options.moving
                               : !options.clip.empty() ? "  clip " + options.clip
+                              : !options.path.empty() ? "  path " + options.path
                                                       : "";
     fmt::print("{}  mode {}  {}  {} voxels{}{}  {} frames\n", scene, run.mode, options.view.size,
                run.settings.voxels.size, options.dynamic ? "  dynamic" : "", moves, options.frames);
     fmt::print("  {:<28} cpu {:9.2f} ms ({:.2f} .. {:.2f})   wall {:9.2f} ms\n", "frame", cpu.median, cpu.min,
                cpu.max, wall.median);
-    for (const auto& [name, time] : run.passes()) {
-        fmt::print("  {:<28} cpu {:9.2f} ms", name, time.first);
-        if (time.second >= 0) fmt::print("   gpu {:9.3f} ms", time.second);
+    for (const PassCost& pass : run.passes()) {
+        fmt::print("  {:<28} cpu {:9.2f} ms", pass.name, pass.cpuMs);
+        if (!options.path.empty())
+            fmt::print("   mean {:9.2f} ms   most {:9.2f} ms, frame {}", pass.mean, pass.most, pass.mostAt);
+        if (pass.gpuMs >= 0) fmt::print("   gpu {:9.3f} ms", pass.gpuMs);
         fmt::print("\n");
     }
     for (const auto& [kind, count] : run.counted.lookupsPerPixel)
@@ -117,6 +140,19 @@ void printRun(const std::string& scene, const BenchOptions& options, const Run& 
     std::size_t total = 0;
     for (const MemoryStats& object : run.frames.back().memory) total += object.bytes;
     fmt::print("  {:<28} {:13.1f} MB\n", "GL objects", static_cast<double>(total) / 1e6);
+}
+
+// A film's frames, one by one.
+nlohmann::ordered_json filmJson(const std::string& path, const Run& run) {
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < run.frames.size(); ++i) {
+        nlohmann::ordered_json frame;
+        frame["hour"] = nullptr;
+        if (run.hours[i]) frame["hour"] = *run.hours[i];
+        frame["cpu_ms"] = run.frames[i].cpuMs;
+        frames.push_back(std::move(frame));
+    }
+    return {{"path", path}, {"frames", frames}};
 }
 
 nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& options, const Size& size,
@@ -147,11 +183,17 @@ nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& opt
         json["frame"]["gpu_ms"] = spreadJson(spread(sums));
     }
     json["passes"] = nlohmann::ordered_json::array();
-    for (const auto& [name, time] : run.passes())
+    for (const PassCost& pass : run.passes()) {
         json["passes"].push_back(
-            {{"name", name},
-             {"cpu_ms", time.first},
-             {"gpu_ms", onGpu ? nlohmann::ordered_json(time.second) : nlohmann::ordered_json()}});
+            {{"name", pass.name},
+             {"cpu_ms", pass.cpuMs},
+             {"gpu_ms", onGpu ? nlohmann::ordered_json(pass.gpuMs) : nlohmann::ordered_json()}});
+        if (options.path.empty()) continue;
+        json["passes"].back()["mean_cpu_ms"] = pass.mean;
+        json["passes"].back()["most_cpu_ms"] = pass.most;
+        json["passes"].back()["most_in_frame"] = pass.mostAt;
+    }
+    if (!options.path.empty()) json["film"] = filmJson(options.path, run);
     json["lookups_per_pixel"] = lookupsJson(run.counted);
     if (!run.dispatches.empty()) json["dispatches"] = nlohmann::ordered_json::array();
     for (const DispatchStats& one : run.dispatches)
@@ -172,8 +214,9 @@ std::size_t findInstance(const Scene& scene, const std::string& path, const std:
     if (error == std::errc() && end == wanted.data() + wanted.size() && index < scene.instances.size())
         return index;
     throw Error(ErrorKind::Usage,
-                fmt::format("--moving: {} has no instance '{}'; a name, or an index below {}, would be right",
-                            path, wanted, scene.instances.size()));
+                fmt::format("--moving: {} has no instance '{}'; a name that `conelight info {} --objects` "
+                            "lists, or an index below {}, would be right",
+                            path, wanted, path, scene.instances.size()));
 }
 
 // One instance's place in a frame: to and fro by a hundredth of the scene, more than a voxel from 128 on.
@@ -226,8 +269,74 @@ std::unique_ptr<Session> sessionFor(const Scene& scene, const Camera& camera, co
     return session;
 }
 
-// All modes of one scene, frame by frame in turn. Each mode has its own renderer, so that switching does not
-// rebuild volumes.
+// A mode of a scene on its way through the frames, in a renderer of its own, so that switching does not rebuild volumes.
+struct Bench {
+    const BenchOptions& options;
+    Size size;
+    std::unique_ptr<Session> session;
+    std::unique_ptr<Renderer> renderer;
+    std::optional<FilmAlong> film = {};  // with a path
+    SceneUpload upload = {};
+    Run run = {};
+
+    void render(const Camera& seen) {
+        upload.follow(*renderer, *session);
+        renderer->render(seen, size.width, size.height, run.settings);
+    }
+    // Each key of a film once, the last one first, so that all programs of the film are there. Returns the first camera.
+    Camera warmUpFilm() {
+        Camera seen = session->camera();
+        if (!film) return seen;
+        run.settings.traced.budgeted = true;
+        const std::vector<PathKey>& keys = film->keys().keys();
+        for (std::size_t key = keys.size(); key-- > 0;) {
+            seen = film->show(*session, keys[key].seconds);
+            render(seen);
+        }
+        run.settings.traced.budgeted = false;
+        return seen;
+    }
+    // A frame of a moving picture is timed: with light settled first, or with all light made anew in each.
+    void settle(const Camera& first) {
+        render(first);
+        run.settings.traced.budgeted = true;
+        renderer->setDynamic(options.dynamic || session->flags().dynamic);
+    }
+    // Shaders are compiled at their first use, per state; then the frame that counts lookups.
+    void warmUp(const Camera& first) {
+        renderer->setProfiling(true, false);
+        render(first);
+        renderer->setProfiling(true, true);
+        render(first);
+        run.counted = renderer->stats();
+        if (!options.shaders.empty()) {
+            renderer->setProfiling(true, false, true);
+            render(first);
+            run.dispatches = renderer->stats().dispatches;
+        }
+        renderer->setProfiling(true, false);
+    }
+    // One that is timed; `clip`: of the session's animation, where one plays.
+    void draw(const std::string& path, int frame, std::size_t clip) {
+        if (!options.moving.empty()) {
+            const Scene& moved = session->scene();
+            const std::size_t moving = findInstance(moved, path, options.moving);
+            renderer->setInstance(moving, movedInstance(moved, moving, frame));
+        }
+        if (!options.clip.empty())
+            session->poseClip(clip, clipSeconds(session->animation().clips[clip], frame));
+        Camera seen = session->camera();
+        if (film) {
+            const double seconds = film->keys().frameSeconds(frame, options.frames);
+            seen = film->show(*session, seconds);
+            run.hours.push_back(film->keys().hourAt(seconds));
+        }
+        render(seen);
+        run.frames.push_back(renderer->stats());
+    }
+};
+
+// All modes of one scene, frame by frame in turn.
 std::vector<Run> benchScene(const std::string& path, const BenchOptions& options, const Size& size,
                             const std::vector<std::string>& modes, Progress& progress) {
     io::SceneAnimation animation;
@@ -235,57 +344,34 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
     const Scene scene = openScene(path, options.view, progress, plays ? &animation : nullptr, plays);
     const std::size_t clip = plays ? benchedClip(animation, path, options.clip) : 0;
     const Camera camera = cameraFor(scene, options.view);
-    std::vector<std::unique_ptr<Session>> sessions;
-    std::vector<SceneUpload> uploads(modes.size());
-    std::vector<Run> runs;
-    std::vector<std::unique_ptr<Renderer>> renderers;
+    std::vector<Bench> benches;
     for (const std::string& mode : modes) {
-        sessions.push_back(sessionFor(scene, camera, path, mode, options, progress));
-        if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
-        sessions.back()->setAnimation(animation);
-        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, {}, nullptr});
-        Renderer& renderer =
-            *renderers.emplace_back(std::make_unique<Renderer>(rendererOptions(options.view, "")));
-        uploads[runs.size() - 1].follow(renderer, *sessions.back());
-        runs.back().baked = bakedFor(runs.back(), sessions.back()->scene(), path, options.moving, progress);
-        renderer.setBakedLight(runs.back().baked);
-        Settings& settings = runs.back().settings;
-        // A frame of a moving picture is timed: with light settled first, or with all light made anew in
-        // each.
+        Bench& bench = benches.emplace_back(
+            Bench{options, size, sessionFor(scene, camera, path, mode, options, progress),
+                  std::make_unique<Renderer>(rendererOptions(options.view, ""))});
+        if (!options.moving.empty()) findInstance(bench.session->scene(), path, options.moving);
+        if (!options.path.empty()) bench.film.emplace(options.path, path, options.view, scene);
+        bench.session->setAnimation(animation);
+        bench.run.mode = mode;
+        bench.run.settings = bench.session->shownSettings();
+        bench.upload.follow(*bench.renderer, *bench.session);
+        bench.run.baked = bakedFor(bench.run, bench.session->scene(), path, options.moving, progress);
+        bench.renderer->setBakedLight(bench.run.baked);
         progress.show(fmt::format("{}: {}: settling", path, mode));
-        renderer.render(sessions.back()->camera(), size.width, size.height, settings);
-        settings.traced.budgeted = true;
-        renderer.setDynamic(options.dynamic || sessions.back()->flags().dynamic);
-        // Warm up: shaders are compiled at their first use, per state; then the frame that counts lookups.
+        const Camera first = bench.warmUpFilm();
+        bench.settle(first);
         progress.show(fmt::format("{}: {}: warming up", path, mode));
-        renderer.setProfiling(true, false);
-        renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
-        renderer.setProfiling(true, true);
-        renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
-        runs.back().counted = renderer.stats();
-        if (!options.shaders.empty()) {
-            renderer.setProfiling(true, false, true);
-            renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
-            runs.back().dispatches = renderer.stats().dispatches;
-        }
-        renderer.setProfiling(true, false);
+        bench.warmUp(first);
     }
-    for (int frame = 0; frame < options.frames; ++frame) {
-        for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (int frame = 0; frame < options.frames; ++frame)
+        for (Bench& bench : benches) {
             progress.show(
-                fmt::format("{}: {}: frame {} of {}", path, runs[i].mode, frame + 1, options.frames));
-            if (!options.moving.empty()) {
-                const Scene& moved = sessions[i]->scene();
-                const std::size_t moving = findInstance(moved, path, options.moving);
-                renderers[i]->setInstance(moving, movedInstance(moved, moving, frame));
-            }
-            if (plays) sessions[i]->poseClip(clip, clipSeconds(animation.clips[clip], frame));
-            uploads[i].follow(*renderers[i], *sessions[i]);
-            renderers[i]->render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
-            runs[i].frames.push_back(renderers[i]->stats());
+                fmt::format("{}: {}: frame {} of {}", path, bench.run.mode, frame + 1, options.frames));
+            bench.draw(path, frame, clip);
         }
-    }
     progress.finish();
+    std::vector<Run> runs;
+    for (Bench& bench : benches) runs.push_back(std::move(bench.run));
     return runs;
 }
 
@@ -300,8 +386,11 @@ void run(const BenchOptions& options) {
         from = comma + 1;
     }
     std::vector<std::string> inputs = options.scenes;
-    inputs.insert(inputs.end(), {options.view.preset, options.view.environment});
+    inputs.insert(inputs.end(), {options.view.preset, options.view.environment, options.path});
     checkOutputs({{"--json", options.jsonFile, OutputKind::Json}}, inputs);
+    if (!options.path.empty())
+        for (const std::string& scene : options.scenes)
+            hoursOf(readCameraPath(options.path), options.path, scene, options.view);
     const std::unique_ptr<platform::HeadlessContext> context = openContext(options.view);
     Progress progress;
     nlohmann::ordered_json json;
@@ -342,6 +431,13 @@ void addBench(CLI::App& app) {
                      "play this clip (name or number, `conelight info` lists them) at 30 frames a second")
         ->type_name("CLIP")
         ->excludes("--moving");
+    command
+        ->add_option("--path", options->path,
+                     "fly --frames along the camera path of this file, in the light of its hours "
+                     "(docs/reference/camera_path.md)")
+        ->type_name("FILE")
+        ->excludes("--moving")
+        ->excludes("--animate");
     command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
     command
         ->add_option("--shaders", options->shaders,

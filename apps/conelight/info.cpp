@@ -19,7 +19,7 @@ namespace {
 
 struct InfoOptions {
     std::string scene;
-    bool tree = false;
+    bool tree = false, objects = false;
     int device = -1;
     io::LoadOptions load;
 };
@@ -80,6 +80,8 @@ void printAdded(Scene& scene) {
 }
 
 void run(const InfoOptions& options) {
+    if (options.objects && (options.scene.empty() || options.tree || isPicture(options.scene)))
+        usage("--objects: needs a scene, and no --tree");
     if (!options.tree && isPicture(options.scene)) return printPicture(options.scene);
     if (options.tree) {
         if (options.scene.empty()) usage("--tree: needs a scene file");
@@ -98,6 +100,7 @@ void run(const InfoOptions& options) {
         io::SceneAnimation animation;
         Scene scene = io::loadAnimatedScene(options.scene, options.load, animation);
         fmt::print("{}", io::describeScene(scene));
+        if (options.objects) fmt::print("{}", io::describeObjects(scene));
         printAdded(scene);
         if (animation.clips.empty()) return;
         fmt::print("clips      {}\n", animation.clips.size());
@@ -115,6 +118,9 @@ void addInfo(CLI::App& app) {
                         "a scene file, builtin:NAME, builtin: for a list, or a picture (.png .exr)");
     command->add_flag("--tree", options->tree,
                       "the syntax tree of a file of the thesis's format: line number, blocks and words");
+    command->add_flag("--objects", options->objects,
+                      "names of the instances, as --moving of bench and --path object=NAME of score flicker "
+                      "take them");
     command->add_option("--device", options->device, "EGL device")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);

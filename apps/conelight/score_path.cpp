@@ -94,8 +94,9 @@ Scene ScorePath::sceneAt(const Scene& scene, int index, int count) const {
         found = true;
     }
     if (!found)
-        throw Error(ErrorKind::Usage, "--path: the scene has no object '" + name_ +
-                                          "'; a name that `conelight info SCENE` lists would be right");
+        throw Error(ErrorKind::Usage,
+                    "--path: the scene has no object '" + name_ +
+                        "'; a name that `conelight info SCENE --objects` lists would be right");
     return moved;
 }
 

@@ -203,6 +203,39 @@ TEST_F(ProgramTest, BenchPlaysAClip) {
     expectOneLine(conelight(bench + "--animate walk --moving water"), 2, "--moving");
 }
 
+// Costs are of frames along the way: maps about the eye are drawn where the camera moves. Hours go with the frames.
+TEST_F(ProgramTest, BenchFliesAlongAPath) {
+    const std::string bench = "bench builtin:plain --path " + path("way.json");
+    const auto film = [&](const std::string& keys) {
+        std::ofstream(path("way.json")) << R"({"conelight": "camera path", "keys": [)" << keys << "]}";
+        const CommandResult result =
+            conelight(bench + " --modes phong --frames 3 --size 24x16 --set light.shadow_size=64 " +
+                      "--environment builtin:sky --split-sun --json " + path("way_costs.json"));
+        EXPECT_EQ(result.status, 0) << result.output;
+        return nlohmann::json::parse(bytesOf(path("way_costs.json")))["runs"][0];
+    };
+    const auto drawsCascades = [](const nlohmann::json& run) {
+        return std::any_of(run["passes"].begin(), run["passes"].end(), [](const nlohmann::json& pass) {
+            return pass["name"] == "shadow cascades" && pass["mean_cpu_ms"] > 0;
+        });
+    };
+    const std::string here = R"("eye": [0, 2, 0], "target": [0, 2, -9]})";
+    const nlohmann::json still = film("{" + here + ",{" + here);
+    EXPECT_FALSE(drawsCascades(still)) << still;
+    EXPECT_TRUE(still["film"]["frames"][0]["hour"].is_null());
+    EXPECT_TRUE(drawsCascades(film("{" + here + R"(,{"eye": [40, 2, 0], "target": [0, 2, -9]})")));
+
+    const nlohmann::json day = film(R"({"hour": 10, )" + here + R"(,{"hour": 14, )" + here)["film"]["frames"];
+    ASSERT_EQ(day.size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(day[std::size_t(i)]["hour"], 10 + 2 * i);
+        EXPECT_GT(day[std::size_t(i)]["cpu_ms"], 0);
+    }
+    expectOneLine(conelight(bench), 2, "hour of the day");
+    expectOneLine(conelight(bench + " --moving 0"), 2, "--moving");
+    expectOneLine(conelight(bench + ".no"), 3, "way.json.no");
+}
+
 // The texts are those of the profile that was asked for, and the JSON file says how often each compute program ran.
 TEST_F(ProgramTest, BenchWritesTheShadersThatFramesNeed) {
     const std::string bench = "bench builtin:cornell --frames 1 --size 16x16 --voxels 16 --shaders '";
@@ -243,6 +276,12 @@ TEST_F(ProgramTest, InfoDescribesScenesAndDevice) {
     EXPECT_EQ(scene.status, 0);
     EXPECT_NE(scene.output.find("triangles"), std::string::npos) << scene.output;
     EXPECT_EQ(conelight("info builtin:").status, 0);
+    EXPECT_EQ(scene.output.find("objects"), std::string::npos);
+    const CommandResult objects = conelight("info builtin:town --objects");
+    EXPECT_NE(objects.output.find("objects    "), std::string::npos) << objects.output;
+    EXPECT_NE(objects.output.find("\n  fountain\n"), std::string::npos) << objects.output;
+    EXPECT_NE(objects.output.find(" instances\n"), std::string::npos) << objects.output;
+    expectOneLine(conelight("info --objects"), 2, "--objects");
 }
 
 TEST_F(ProgramTest, InterruptLeavesNoHalfFile) {

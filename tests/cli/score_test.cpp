@@ -152,7 +152,8 @@ TEST_F(ScoreTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(conelight("score convergence builtin:cornell --light nobody"), 2, "lamp");
     expectOneLine(conelight("score convergence builtin:cornell --within x"), 2, "--within");
     expectOneLine(conelight("score flicker builtin:cornell --path zoom=3"), 2, "orbit");
-    expectOneLine(conelight("score flicker builtin:cornell --path object=nobody:1,0,0"), 2, "nobody");
+    expectOneLine(conelight("score flicker builtin:cornell --path object=nobody:1,0,0"), 2,
+                  "info SCENE --objects");
     expectOneLine(conelight("score flicker builtin:cornell --path clip=walk"), 2, "clip");
     expectOneLine(conelight("score leak --angles 10,x"), 2, "--angles");
     expectOneLine(conelight("score leak --dark nobody --size 16x16"), 2, "nobody");
