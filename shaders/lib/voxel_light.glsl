@@ -9,6 +9,7 @@
 // FIND_BACK_FACES 1: cosine-sampled rays are traced backwards as well, to find back faces.
 // LOBES 1: rays are reflected by metals (traceRadiance). 0: metals reflect like diffuse surfaces.
 // GLOSS 1, with EXACT_DIRECT: dielectrics reflect point, spot and directional lights in their lobe.
+// CACHED_PART 1: estimateIrradiance() says which part of its result is cached light (`gatheredCached`).
 // TRIANGLE_HITS 1: rays in smooth lobes hit triangles (lib/triangle_hit.glsl); needs SMOOTH_HITS 1.
 // SMOOTH_HITS 1: irradiance and normal of a hit are interpolated over the voxels around it.
 //
@@ -28,6 +29,9 @@
 #endif
 #ifndef SMOOTH_HITS
 #define SMOOTH_HITS 0
+#endif
+#ifndef CACHED_PART
+#define CACHED_PART 0
 #endif
 // Not within an #if: a file that is included in a branch not taken is lost to later includers.
 // For glass, before the others.
@@ -92,6 +96,10 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 }
 #endif
 
+#if CACHED_PART
+vec3 cachedRadiance;  // what of the radiance of the last ray is cached light that its first hit reflects
+vec3 gatheredCached;  // what of the last estimate is such light
+#endif
 #include "lib/triangle_surface.glsl"
 
 // Outgoing radiance at a hit as if all metals were diffuse; the sky for a miss, over an angle of `width`.
@@ -100,6 +108,9 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceShading s,
                  out vec3 shadingNormal) {
     int face = max(hit.face, 0);
+#if CACHED_PART
+    cachedRadiance = vec3(0.0);
+#endif
 #if EXECUTION_GPU
     if (hit.face < 0) {
         shadingNormal = vec3(0.0, 0.0, 1.0);
@@ -119,6 +130,9 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     vec4 cached = cachedIrradiance(point, normal, hit.face >= 0, shadingNormal);
     shadingNormal = dot(shadingNormal, shadingNormal) > 0.0 ? normalize(shadingNormal) : normal;
     s.irradiance = cached.a > 0.0 ? cached.rgb : s.irradiance;
+#endif
+#if CACHED_PART
+    cachedRadiance = hit.face >= 0 ? s.albedo * s.irradiance : vec3(0.0);
 #endif
 #if EXACT_DIRECT
     // Evaluate the punctual lights at the point
@@ -250,11 +264,17 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         VoxelHit hit = traceVoxels(ray);
         bool first = state.bounce == 0;
         if (first) firstHit = hit;
+#if CACHED_PART
+        vec3 cachedFirst = cachedRadiance;
+#endif
 
         // Evaluate the surface and sample its lobe
         PathVertex vertex = pathVertex(ray, hit, path, state, random);
         GlossyBounce next = vertex.next;
         continues = vertex.metal && state.bounce < path.maxBounces;
+#if CACHED_PART
+        cachedRadiance = !first ? cachedFirst : vertex.metal ? vec3(0.0) : cachedRadiance;
+#endif
 
         // Add the contribution; the last metal reflects the cached light as if diffuse
         if (!continues) next.radiance += vertex.lobeIrradiance;
@@ -450,6 +470,9 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
     float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
     uint random = randomHash(sequence.seed) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
+#if CACHED_PART
+    gatheredCached = vec3(0.0);
+#endif
     float backFaces = 0.0;
     int count = settings.cosineSamples + settings.lightSamples;
     int i = 0;
@@ -465,6 +488,9 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
             PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp, 0.0);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
+#if CACHED_PART
+        vec3 cachedShare = min(cachedRadiance / max(radiance, 1e-12), 1.0);
+#endif
         float skyPdf = 0.0;
 #if ENVIRONMENT
         vec3 cell = environmentCell(drawn.ray.direction, skyPdf);
@@ -489,7 +515,11 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);
 
         // Add the contribution
-        sum += drawn.valid && reached ? radiance * misWeight : vec3(0.0);
+        vec3 contribution = drawn.valid && reached ? radiance * misWeight : vec3(0.0);
+        sum += contribution;
+#if CACHED_PART
+        gatheredCached += contribution * cachedShare;
+#endif
         RECORD_RAY(lightSampled ? PATH_LIGHT_RAY : PATH_COSINE_RAY, drawn.ray, hit, 1.0, vec3(misWeight),
                    radiance, drawn.valid && reached);
     } while (++i < count);
