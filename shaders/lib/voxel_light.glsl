@@ -9,7 +9,7 @@
 // FIND_BACK_FACES 1: cosine-sampled rays are traced backwards as well, to find back faces.
 // LOBES 1: rays are reflected by metals (traceRadiance). 0: metals reflect like diffuse surfaces.
 // GLOSS 1, with EXACT_DIRECT: dielectrics reflect point, spot and directional lights in their lobe.
-// CACHED_PART 1: estimateIrradiance() says which part of its result is cached light (`gatheredCached`).
+// CACHED_PART 1: estimateIrradiance() says how much cached light it gathers (`gatheredCached`, `returnedCached`).
 // TRIANGLE_HITS 1: rays in smooth lobes hit triangles (lib/triangle_hit.glsl); needs SMOOTH_HITS 1.
 // SMOOTH_HITS 1: irradiance and normal of a hit are interpolated over the voxels around it.
 //
@@ -99,6 +99,8 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 #if CACHED_PART
 vec3 cachedRadiance;  // what of the radiance of the last ray is cached light that its first hit reflects
 vec3 gatheredCached;  // what of the last estimate is such light
+// The same by cosine-sampled rays alone. They have no noise in common: all faces draw light samples from one pool.
+vec3 returnedCached;
 #endif
 #include "lib/triangle_surface.glsl"
 
@@ -471,7 +473,7 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
     uint random = randomHash(sequence.seed) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
 #if CACHED_PART
-    gatheredCached = vec3(0.0);
+    gatheredCached = returnedCached = vec3(0.0);
 #endif
     float backFaces = 0.0;
     int count = settings.cosineSamples + settings.lightSamples;
@@ -519,6 +521,8 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         sum += contribution;
 #if CACHED_PART
         gatheredCached += contribution * cachedShare;
+        if (!lightSampled && drawn.valid)
+            returnedCached += radiance * cachedShare / float(settings.cosineSamples);
 #endif
         RECORD_RAY(lightSampled ? PATH_LIGHT_RAY : PATH_COSINE_RAY, drawn.ray, hit, 1.0, vec3(misWeight),
                    radiance, drawn.valid && reached);

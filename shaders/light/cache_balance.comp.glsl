@@ -97,7 +97,8 @@ void main() {
 void main() {
     Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0));
     for (uint i = gl_LocalInvocationIndex; i < balancing.groups; i += uint(BALANCE_GROUP))
-        sums = added(sums, Sums(groupSums[3u * i].rgb, groupSums[3u * i + 1u].rgb, groupSums[3u * i + 2u].rgb));
+        sums =
+            added(sums, Sums(groupSums[3u * i].rgb, groupSums[3u * i + 1u].rgb, groupSums[3u * i + 2u].rgb));
     sums = sumOfGroup(sums);
     if (gl_LocalInvocationIndex != 0u) return;
     if (balancing.weight > 0.0) {
@@ -106,7 +107,8 @@ void main() {
         balance.fresh += balancing.weight * (sums.fresh - balance.fresh);
         balance.returned += balancing.weight * (returned - balance.returned);
         vec3 wanted = balance.fresh / (1.0 - balance.returned);
-        balance.correction = mix(vec3(1.0), wanted / max(sums.cached, 1e-20), greaterThan(sums.cached, vec3(1e-20)));
+        balance.correction =
+            mix(vec3(1.0), wanted / max(sums.cached, 1e-20), greaterThan(sums.cached, vec3(1e-20)));
         sums.cached *= balance.correction;
     }
     balance.cached = sums.cached;

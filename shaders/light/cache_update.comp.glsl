@@ -44,8 +44,7 @@ void main() {
     EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
                                                    int(cache.reflections), cache.fireflyClamp);
     float backFaceShare;
-    vec3 found =
-        estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
+    vec3 found = estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;
@@ -61,5 +60,5 @@ void main() {
             (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
 #endif
     states[face] = state;
-    gathered[face] = uvec2(packRgb9e5(found - gatheredCached), packRgb9e5(gatheredCached));
+    gathered[face] = uvec2(packRgb9e5(found - gatheredCached), packRgb9e5(returnedCached));
 }

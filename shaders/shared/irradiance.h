@@ -109,21 +109,23 @@ struct CacheConstants {
 
 // The balance of the cache's light (cache_balance), over all faces that gather: sums over their areas and albedos.
 struct CacheBalance {
-    vec3 cached;      // the light that they have cached
-    float pad0;       //
-    vec3 fresh;       // what an update gathers that comes from sources, as the mean of updates
-    float pad1;       //
-    vec3 returned;    // of the cached light, the part that an update gathers again, [0,1], as the mean of updates
-    float pad2;       //
+    vec3 cached;  // the light that they have cached
+    float pad0;   //
+    vec3 fresh;   // what an update gathers that comes from sources, as the mean of updates
+    float pad1;   //
+    vec3
+        returned;  // of the cached light, the part that an update gathers again, [0,1], as the mean of updates
+    float pad2;    //
     vec3 correction;  // factor that makes the cached light what fresh light and all its returns add up to
     float pad3;
 };  // 64 B
 
 // Uniform block of cache_balance.
 struct CacheBalancing {
-    uint groups;        // of STEP 0
-    float weight;       // of this update in means, as (4.13) has it; 0: light is added up alone
-    float cachedBefore; // of the cached light that rays have read, the part that is of before the update, [0,1]
+    uint groups;   // of STEP 0
+    float weight;  // of this update in means, as (4.13) has it; 0: light is added up alone
+    float
+        cachedBefore;  // of the cached light that rays have read, the part that is of before the update, [0,1]
     uint pad0;
 };  // 16 B
 

@@ -368,8 +368,9 @@ void IrradianceCache::beginBalance(const gl::Device& device, const Inputs& input
 void IrradianceCache::endBalance(const gl::Device& device, const Inputs& inputs,
                                  const CacheSettings& settings, int rounds, bool wholeRound) {
     if (!measured_ || !settings.averages || rounds < 1) return;
-    const int averaged = std::clamp(rounds - IRRADIANCE_SETTLE, 0, settings.longestWindow - 1);
-    const float weight = 1.5f / (static_cast<float>(averaged) + 1.5f);  // (4.13)
+    // As (4.13), but from the beginning: both numbers are right before bounces have settled.
+    const int averaged = std::min(rounds, settings.longestWindow) - 1;
+    const float weight = 1.5f / (static_cast<float>(averaged) + 1.5f);
     // In a round of parts, rays have read light of before the round and of its end.
     balanceLight(device, inputs, weight, wholeRound ? 1.0f : 0.5f);
 }
@@ -463,8 +464,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
-        if (updates() > rounds)
-            endBalance(device, inputs, settings, rounds, count == order_.visited());
+        if (updates() > rounds) endBalance(device, inputs, settings, rounds, count == order_.visited());
         co_await commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {

@@ -132,7 +132,8 @@ class IrradianceCache {
     gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
         reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_, gathered_, gatheredSums_, balance_,
         balanceBlock_;
-    gl::Texture gatheredTexels_, faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
+    gl::Texture gatheredTexels_, faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_,
+        oldStateTexels_;
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
