@@ -107,7 +107,7 @@ struct CacheConstants {
     vec4 placeParts[CHANGED_FOURS];  // of their cross-sections, how much changed, [0,1]
 };                                   // 368 B
 
-// The balance of the cache's light (cache_balance), over all faces that gather: sums over their areas and albedos.
+// The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
 struct CacheBalance {
     vec3 cached;  // the light that they have cached
     float pad0;   //

@@ -58,13 +58,6 @@ struct CommitKey {
 };
 
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
-std::size_t balanceGroups(std::size_t faces) {
-    constexpr std::size_t kEach = std::size_t{BALANCE_LANES} * BALANCE_FACES_OF_LANE;
-    return (faces + kEach - 1) / kEach;
-}
-gl::ProgramDesc balance(int step) {
-    return {{"light/cache_balance.comp.glsl"}, {{"STEP", std::to_string(step)}}};
-}
 gl::ProgramDesc sums(int step) { return {{"light/cache_sums.comp.glsl"}, {{"STEP", std::to_string(step)}}}; }
 
 }  // namespace
@@ -101,7 +94,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         faceLight_ = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
         faceLightTexels_ = gl::Texture(faceLight_, GL_RG32UI, "light of faces at pixels");
     }
-    reserveGathered(faces, room);
+    balance_.reserve(faces, room);
     if (fluxes_.bytes() < std::size_t{4} * faces || !fluxes_) {
         fluxTexels_ = {};
         fluxes_ = {};
@@ -110,23 +103,6 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         chunks_ = gl::Buffer(4 * (std::size_t{gpu::mostChunks(static_cast<std::uint32_t>(room))} + 1),
                              "flux of chunks of faces");
     }
-}
-
-// Room for what updates gather, and for its sums.
-void IrradianceCache::reserveGathered(std::size_t faces, std::size_t room) {
-    if (!balance_) {
-        balance_ = gl::Buffer(sizeof(gpu::CacheBalance), "irradiance cache balance");
-        balanceBlock_ = gl::Buffer(sizeof(gpu::CacheBalancing), "irradiance cache balance constants");
-        balance_.clear();
-    }
-    if (gathered_ && gathered_.bytes() >= 8 * faces) return;
-    gatheredTexels_ = {};
-    gathered_ = {};
-    gathered_ = gl::Buffer(8 * room, "gathered light of faces");
-    gatheredTexels_ = gl::Texture(gathered_, GL_RG32UI, "gathered light of faces");
-    gathered_.clear();
-    gatheredSums_ = gl::Buffer(3 * sizeof(glm::vec4) * balanceGroups(room), "sums of gathered light");
-    measured_ = false;
 }
 
 base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels,
@@ -193,7 +169,7 @@ void IrradianceCache::restartAverages(const EditSpheres& changed) {
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
-    measured_ = false;
+    balance_.restart();
     facesVisited_ = 0;
 }
 
@@ -320,7 +296,7 @@ gl::Inputs IrradianceCache::givenToUpdates(const Inputs& inputs) const {
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_)
         .texture("order", order_.texels())
-        .storage("GatheredTable", gathered_);
+        .add(balance_);
     return given;
 }
 
@@ -328,51 +304,6 @@ HitKey IrradianceCache::hitsOf(const Inputs& inputs, const CacheSettings& settin
     HitKey hits = inputs.lights.hitKey(inputs.scene, settings.exactDirect);
     if (hits.lights.shadows) hits.lights.filter = UpdateKey::kFilter;
     return hits;
-}
-
-// Adds up the light of all faces; with a weight, corrects it by what the last round of updates has gathered
-// (shaders/light/cache_balance.comp.glsl).
-void IrradianceCache::balanceLight(const gl::Device& device, const Inputs& inputs, float weight,
-                                   float cachedBefore) {
-    const gl::PassScope scope(device.profiler, "irradiance: balance");
-    gpu::CacheBalancing block{};
-    block.groups = static_cast<std::uint32_t>(balanceGroups(faceCount_));
-    block.weight = weight;
-    block.cachedBefore = cachedBefore;
-    balanceBlock_.update(block);
-    gl::Inputs given;
-    given.add(inputs.voxels.surface())
-        .add(inputs.faces)
-        .uniform("BalanceBlock", balanceBlock_)
-        .storage("BalanceTable", balance_)
-        .storage("GroupTable", gatheredSums_)
-        .storage("StateTable", states_)
-        .texture("stateTexels", stateTexels_)
-        .texture("gatheredTexels", gatheredTexels_);
-    device.get(balance(0)).dispatchLinear(given, block.groups * std::size_t{BALANCE_LANES});
-    gl::barrier(gl::Access::ShaderStorage);
-    device.get(balance(1)).dispatch(given, 1);
-    gl::barrier(gl::Access::ShaderStorage);
-    if (weight > 0) device.get(balance(2)).dispatchLinear(given, faceCount_);
-    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
-    measured_ = true;
-}
-
-// Before an update. The first after a change corrects nothing: where things move, light is changed again by then.
-void IrradianceCache::beginBalance(const gl::Device& device, const Inputs& inputs,
-                                   const CacheSettings& settings) {
-    if (settings.averages && !measured_ && updates() > 0) balanceLight(device, inputs, 0, 0);
-}
-
-// After an update that was the last of a round, of which there were so many.
-void IrradianceCache::endBalance(const gl::Device& device, const Inputs& inputs,
-                                 const CacheSettings& settings, int rounds, bool wholeRound) {
-    if (!measured_ || !settings.averages || rounds < 1) return;
-    // As (4.13), but from the beginning: both numbers are right before bounces have settled.
-    const int averaged = std::min(rounds, settings.longestWindow) - 1;
-    const float weight = 1.5f / (static_cast<float>(averaged) + 1.5f);
-    // In a round of parts, rays have read light of before the round and of its end.
-    balanceLight(device, inputs, weight, wholeRound ? 1.0f : 0.5f);
 }
 
 // One update of the next `count` faces.
@@ -444,12 +375,15 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     if (faceCount_ == 0) co_return;
     if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
-        beginBalance(device, inputs, settings);
         const int rounds = updates();
+        const LightBalance::Faces faces{inputs.voxels.surface(), inputs.faces, states_, stateTexels_};
+        // Where things move, light is changed again before the second update.
+        if (settings.averages && rounds > 0) balance_.begin(device, faces);
         if (goesUncounted(settings)) {
             visitUncounted(device, inputs, settings);
             ++updatesMade_;
-            endBalance(device, inputs, settings, rounds, true);
+            if (settings.averages && rounds > 0)
+                balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), true});
             co_await commit(device, inputs, settings, i + 1 == passes);
             continue;
         }
@@ -464,7 +398,9 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
-        if (updates() > rounds) endBalance(device, inputs, settings, rounds, count == order_.visited());
+        if (settings.averages && rounds > 0 && updates() > rounds)
+            balance_.correct(device, faces,
+                             {std::min(rounds, settings.longestWindow), count == order_.visited()});
         co_await commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {
@@ -496,13 +432,12 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{sums(0),           sums(1),       pass("pool"),   pass("restart"),
-                                       pass("reproject"), pass("share"), pass("ranges"), balance(0),
-                                       balance(1),        balance(2)};
+    std::vector<gl::ProgramDesc> descs{sums(0),           sums(1),       pass("pool"),  pass("restart"),
+                                       pass("reproject"), pass("share"), pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
-    const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();
-    descs.insert(descs.end(), order.begin(), order.end());
+    for (const auto& more : {FaceOrder::programDescs(), LightBalance::programDescs()})
+        descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }
 

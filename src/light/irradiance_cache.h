@@ -14,6 +14,7 @@
 #include "gl/device.h"
 #include "light/edit_places.h"
 #include "light/face_order.h"
+#include "light/light_balance.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
@@ -116,11 +117,6 @@ class IrradianceCache {
     bool goesUncounted(const CacheSettings& settings) const;
     void visitUncounted(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings);
     void know() const;
-    void reserveGathered(std::size_t faces, std::size_t room);
-    void balanceLight(const gl::Device& device, const Inputs& inputs, float weight, float cachedBefore);
-    void beginBalance(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings);
-    void endBalance(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, int rounds,
-                    bool wholeRound);
     struct Visit;
     base::Steps visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end);
     base::Steps visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
@@ -130,11 +126,10 @@ class IrradianceCache {
                        bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
-        reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_, gathered_, gatheredSums_, balance_,
-        balanceBlock_;
-    gl::Texture gatheredTexels_, faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_,
-        oldStateTexels_;
+        reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_;
+    gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
+    LightBalance balance_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
     bool carried_ = false;   // the voxels took over light from those before
@@ -143,7 +138,6 @@ class IrradianceCache {
 
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
-    bool measured_ = false;  // balance_ holds the light of all faces as it is
     EditSpheres restartsNear_;
     std::uint32_t updatesMade_ = 0;              // ever
     bool unfinished_ = false;                    // the last one was left

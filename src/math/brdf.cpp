@@ -62,22 +62,23 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
 
 float evenCoat(float roughness) { return evenAlbedo(glm::vec3(0), 0, roughness, glm::vec3(kCoatF0)).r; }
 
-ToldSurface toldSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0) {
+MetallicSurface metallicSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0) {
     const auto sum = [](const glm::vec3& v) { return v.r + v.g + v.b; };
-    glm::vec3 more = glm::max(dielectricF0 - (kToldF0 + 1e-4f), 0.0f);
+    glm::vec3 more = glm::max(dielectricF0 - (kDielectricF0 + 1e-4f), 0.0f);
     if (sum(more) == 0.0f) return {baseColor, metallic, dielectricF0};
-    const glm::vec3 body = baseColor * ((1.0f - largest(dielectricF0)) / (1.0f - kToldF0));
+    const glm::vec3 body = baseColor * ((1.0f - largest(dielectricF0)) / (1.0f - kDielectricF0));
     float metal = sum(more) / (sum(more) + sum(body));
-    more = glm::max(dielectricF0 - (1.0f - metal) * kToldF0, 0.0f);
+    more = glm::max(dielectricF0 - (1.0f - metal) * kDielectricF0, 0.0f);
     metal = sum(more) / (sum(more) + sum(body));
-    const glm::vec3 color = glm::min(body + glm::max(dielectricF0 - (1.0f - metal) * kToldF0, 0.0f), 1.0f);
+    const glm::vec3 color =
+        glm::min(body + glm::max(dielectricF0 - (1.0f - metal) * kDielectricF0, 0.0f), 1.0f);
     return {glm::mix(color, baseColor, metallic), glm::mix(metal, 1.0f, metallic),
-            glm::min(dielectricF0, kToldF0)};
+            glm::min(dielectricF0, kDielectricF0)};
 }
 
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0) {
-    const ToldSurface told = toldSurface(baseColor, metallic, dielectricF0);
+    const MetallicSurface told = metallicSurface(baseColor, metallic, dielectricF0);
     constexpr float kEvenLobe = 0.5f;
     const float r = std::max(roughness, kMinRoughness);
     const float both =

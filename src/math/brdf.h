@@ -27,16 +27,16 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
               float NoV);
 
 // Reflectance of dielectrics as rays are told of it.
-constexpr float kToldF0 = 0.04f;
+constexpr float kDielectricF0 = 0.04f;
 
-// A surface as rays are told of it: a dielectric that reflects more than kToldF0 counts as partly metal. Shader twin:
-// toldSurface in shaders/lib/brdf.glsl.
-struct ToldSurface {
+// A surface as rays are told of it: a dielectric that reflects more than kDielectricF0 counts as partly metal. Shader twin:
+// metallicSurface in shaders/lib/brdf.glsl.
+struct MetallicSurface {
     glm::vec3 baseColor;
     float metallic;
     glm::vec3 dielectricF0;
 };
-ToldSurface toldSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0);
+MetallicSurface metallicSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0);
 
 // Reflectance in even light, both lobes; what voxels keep as a surface's colour.
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,

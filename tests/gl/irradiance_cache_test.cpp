@@ -74,8 +74,8 @@ TEST_F(IrradianceCacheTest, StrongLobesAreThoseOfMetals) {
     addInstance(scene, boxOfQuads(false), material);
     scene.lights.push_back(pointLight({0.5f, 0.8f, 0.5f}, 1));
     CacheRig rig(programs(), scene, 16);
-    const math::ToldSurface told =
-        math::toldSurface({0.2f, 0.1f, 0.2f}, 0, scene::packedMaterial(material, {}).specularF0);
+    const math::MetallicSurface told =
+        math::metallicSurface({0.2f, 0.1f, 0.2f}, 0, scene::packedMaterial(material, {}).specularF0);
     EXPECT_GT(told.metallic, 0.9f);
     const glm::vec3 expected = math::evenAlbedo(told.baseColor, told.metallic, 0.3f, glm::vec3(0.04f));
     for (const CachedFace& face : rig.faces())

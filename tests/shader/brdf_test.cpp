@@ -84,10 +84,10 @@ TEST(BrdfTest, EvenAlbedoIsHalfTheLobeOverTheBase) {
 }
 
 // What rays are told of a dielectric reflects what it does, body and lobe, whatever its F0.
-TEST(BrdfTest, ToldSurfacesReflectTheSame) {
+TEST(BrdfTest, MetallicSurfacesReflectTheSame) {
     for (const float f0 : {0.0f, 0.02f, 0.04f, 0.06f, 0.17f, 0.5f, 0.8f, 1.0f})
         for (const float base : {0.0f, 0.1f, 0.5f, 1.0f}) {
-            const math::ToldSurface told = math::toldSurface(glm::vec3(base), 0, glm::vec3(f0));
+            const math::MetallicSurface told = math::metallicSurface(glm::vec3(base), 0, glm::vec3(f0));
             if (f0 <= 0.04f) {
                 EXPECT_EQ(told.baseColor, glm::vec3(base));
                 EXPECT_EQ(told.metallic, 0.0f);
@@ -99,7 +99,7 @@ TEST(BrdfTest, ToldSurfacesReflectTheSame) {
             EXPECT_NEAR(as.f0.x, is.f0.x, 0.02f) << f0 << ' ' << base;
             EXPECT_NEAR(as.diffuse.x, is.diffuse.x, 0.03f) << f0 << ' ' << base;
         }
-    const math::ToldSurface metal = math::toldSurface(glm::vec3(0.7f), 1, glm::vec3(0.5f));
+    const math::MetallicSurface metal = math::metallicSurface(glm::vec3(0.7f), 1, glm::vec3(0.5f));
     EXPECT_EQ(metal.metallic, 1.0f);
     EXPECT_EQ(metal.baseColor, glm::vec3(0.7f));
 }
