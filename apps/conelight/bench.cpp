@@ -28,6 +28,7 @@ struct BenchOptions {
     std::string modes = "traced";
     std::string jsonFile;
     std::string shaders;  // folder
+    std::string shaderDirectory;
     int frames = 5;
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
@@ -348,7 +349,7 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
     for (const std::string& mode : modes) {
         Bench& bench = benches.emplace_back(
             Bench{options, size, sessionFor(scene, camera, path, mode, options, progress),
-                  std::make_unique<Renderer>(rendererOptions(options.view, ""))});
+                  std::make_unique<Renderer>(rendererOptions(options.view, options.shaderDirectory))});
         if (!options.moving.empty()) findInstance(bench.session->scene(), path, options.moving);
         if (!options.path.empty()) bench.film.emplace(options.path, path, options.view, scene);
         bench.session->setAnimation(animation);
@@ -442,6 +443,10 @@ void addBench(CLI::App& app) {
     command
         ->add_option("--shaders", options->shaders,
                      "write the shaders that the frames needed, as text; --json then says how often each ran")
+        ->type_name("DIR");
+    command
+        ->add_option("--shader-dir", options->shaderDirectory,
+                     "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
     options->view.addTo(*command);
     options->script.addTo(*command);

@@ -94,7 +94,6 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         faceLight_ = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
         faceLightTexels_ = gl::Texture(faceLight_, GL_RG32UI, "light of faces at pixels");
     }
-    balance_.reserve(faces, room);
     if (fluxes_.bytes() < std::size_t{4} * faces || !fluxes_) {
         fluxTexels_ = {};
         fluxes_ = {};
@@ -373,6 +372,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) co_return;
+    balance_.reserve(faceCount_);
     if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const int rounds = updates();
@@ -383,7 +383,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
             visitUncounted(device, inputs, settings);
             ++updatesMade_;
             if (settings.averages && rounds > 0)
-                balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), true});
+                balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), 1.0f});
             co_await commit(device, inputs, settings, i + 1 == passes);
             continue;
         }
@@ -400,7 +400,8 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         ++updatesMade_;
         if (settings.averages && rounds > 0 && updates() > rounds)
             balance_.correct(device, faces,
-                             {std::min(rounds, settings.longestWindow), count == order_.visited()});
+                             {std::min(rounds, settings.longestWindow),
+                              static_cast<float>(count) / static_cast<float>(order_.visited())});
         co_await commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {
@@ -416,6 +417,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
 void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
+    balance_.release();
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }

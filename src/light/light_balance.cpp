@@ -20,19 +20,27 @@ std::size_t balanceGroups(std::size_t faces) {
 
 }  // namespace
 
-void LightBalance::reserve(std::size_t faces, std::size_t room) {
+void LightBalance::reserve(std::size_t faces) {
     if (!balance_) {
         balance_ = gl::Buffer(sizeof(gpu::CacheBalance), "irradiance cache balance");
         block_ = gl::Buffer(sizeof(gpu::CacheBalancing), "irradiance cache balance constants");
         balance_.clear();
     }
     if (gathered_ && gathered_.bytes() >= 8 * faces) return;
-    gatheredTexels_ = {};
-    gathered_ = {};
+    release();
+    // No room for growth before there was any.
+    const std::size_t room = (hadFaces_ ? faces + faces / 4 : faces) + 64;
+    hadFaces_ = true;
     gathered_ = gl::Buffer(8 * room, "gathered light of faces");
     gatheredTexels_ = gl::Texture(gathered_, GL_RG32UI, "gathered light of faces");
     gathered_.clear();
     groupSums_ = gl::Buffer(3 * sizeof(glm::vec4) * balanceGroups(room), "sums of gathered light");
+}
+
+void LightBalance::release() {
+    gatheredTexels_ = {};
+    gathered_ = {};
+    groupSums_ = {};
     measured_ = false;
 }
 
@@ -44,8 +52,8 @@ void LightBalance::correct(const gl::Device& device, const Faces& faces, const U
     if (!measured_) return;
     // As (4.13), but from the beginning: what is averaged is right before bounces have settled.
     const float weight = 1.5f / (static_cast<float>(update.number - 1) + 1.5f);
-    // In an update in parts, rays have read light of before it and of its end.
-    addUp(device, faces, weight, update.whole ? 1.0f : 0.5f);
+    // The rays of the first part have read the light of before, those of others some of its end, too.
+    addUp(device, faces, weight, 0.5f + 0.5f * update.part);
 }
 
 // With a weight, the sums correct the light.

@@ -24,11 +24,12 @@ class LightBalance {
     // An update of all faces.
     struct Update {
         int number;  // since light changed, from 1: later ones weigh less
-        bool whole;  // at once: all its rays read the light of before; else in parts
+        float part;  // of the faces that were visited at a time, (0,1]
     };
 
-    // Room for so many faces; for `room` where memory is allocated.
-    void reserve(std::size_t faces, std::size_t room);
+    // Room for so many faces; before updates, which write what they gather.
+    void reserve(std::size_t faces);
+    void release();  // until then
     // Light has changed: what was gathered is of another.
     void restart() { measured_ = false; }
     // Before an update: adds up the light of all faces, if that is not known.
@@ -44,6 +45,7 @@ class LightBalance {
 
     gl::Buffer gathered_, groupSums_, balance_, block_;
     gl::Texture gatheredTexels_;
+    bool hadFaces_ = false;
     bool measured_ = false;  // balance_ holds the light of all faces as it is
 };
 
