@@ -26,6 +26,7 @@ struct BenchOptions {
     std::string modes = "traced";
     std::string jsonFile;
     std::string shaders;  // folder
+    std::string shaderDirectory;
     int frames = 5;
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
@@ -244,8 +245,8 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
         if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
         sessions.back()->setAnimation(animation);
         runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, {}, nullptr});
-        Renderer& renderer =
-            *renderers.emplace_back(std::make_unique<Renderer>(rendererOptions(options.view, "")));
+        Renderer& renderer = *renderers.emplace_back(
+            std::make_unique<Renderer>(rendererOptions(options.view, options.shaderDirectory)));
         uploads[runs.size() - 1].follow(renderer, *sessions.back());
         runs.back().baked = bakedFor(runs.back(), sessions.back()->scene(), path, options.moving, progress);
         renderer.setBakedLight(runs.back().baked);
@@ -346,6 +347,10 @@ void addBench(CLI::App& app) {
     command
         ->add_option("--shaders", options->shaders,
                      "write the shaders that the frames needed, as text; --json then says how often each ran")
+        ->type_name("DIR");
+    command
+        ->add_option("--shader-dir", options->shaderDirectory,
+                     "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
     options->view.addTo(*command);
     options->script.addTo(*command);

@@ -65,10 +65,37 @@ vec3 fresnel(vec3 f0, vec3 f90, float VoH) {
 // builtin:lobby, whose indirect light is 3.3 and 1.6 % too dark with 0, 1.9 and 2.0 % too bright with 1.
 const float kEvenLobe = 0.5;
 
+// Rays know two kinds of surfaces: dielectrics of this reflectance, and metals.
+const float kDielectricF0 = 0.04;
+
+// A surface as rays are told of it: a dielectric that reflects more counts as partly metal, so that its body and its lobe
+// reflect what they did.
+struct MetallicSurface {
+    vec3 baseColor;
+    float metallic;
+    vec3 dielectricF0;
+};
+
+// C++ twin: math::metallicSurface.
+MetallicSurface metallicSurface(vec3 baseColor, float metallic, vec3 dielectricF0) {
+    vec3 more = max(dielectricF0 - (kDielectricF0 + 1e-4), 0.0);
+    if (more.r + more.g + more.b == 0.0) return MetallicSurface(baseColor, metallic, dielectricF0);
+    float strongest = max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b));
+    vec3 body = baseColor * ((1.0 - strongest) / (1.0 - kDielectricF0));
+    float ofBody = body.r + body.g + body.b;
+    // The lobe of the metal is what the dielectric's part of it does not reflect; twice, as that part depends on it.
+    float metal = (more.r + more.g + more.b) / (more.r + more.g + more.b + ofBody);
+    more = max(dielectricF0 - (1.0 - metal) * kDielectricF0, 0.0);
+    metal = (more.r + more.g + more.b) / (more.r + more.g + more.b + ofBody);
+    vec3 color = min(body + max(dielectricF0 - (1.0 - metal) * kDielectricF0, 0.0), 1.0);
+    return MetallicSurface(mix(color, baseColor, metallic), mix(metal, 1.0, metallic),
+                           min(dielectricF0, kDielectricF0));
+}
+
 // Metalness and roughness as rays are told them: a dielectric that reflects nothing has no lobe, as a rough one.
-vec2 toldLobe(float metallic, float roughness, vec3 dielectricF0) {
+vec2 toldLobe(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0) {
     bool reflects = metallic > 0.0 || max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b)) > 0.0;
-    return vec2(metallic, reflects ? roughness : 1.0);
+    return vec2(metallicSurface(baseColor, metallic, dielectricF0).metallic, reflects ? roughness : 1.0);
 }
 
 // Share of even light that the lobe of a dielectric is counted with (kEvenLobe), multiple scattering included.
@@ -89,9 +116,10 @@ vec3 evenLobe(float roughness, vec3 dielectricF0) {
 // Metals count with their base colour: their lobe is added where rays meet them. docs/theory/4f_glossy.md,
 // (4.35). C++ twin: math::evenAlbedo.
 vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0) {
-    vec3 own = evenLobe(roughness, dielectricF0);
+    MetallicSurface told = metallicSurface(baseColor, metallic, dielectricF0);
+    vec3 own = evenLobe(roughness, told.dielectricF0);
     float strongest = max(own.r, max(own.g, own.b));
-    return mix(baseColor * (1.0 - strongest) + own, baseColor, metallic);
+    return mix(told.baseColor * (1.0 - strongest) + own, told.baseColor, told.metallic);
 }
 
 // The same of a surface with coat and sheen; `evenLayers`: of its Material. C++ twin: math::LayerAlbedo.

@@ -88,7 +88,7 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
         layers.y >= 0 ? litLobe(faceBits) : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
     albedo = layeredAlbedo(albedo, materials[material].evenLayers);
-    lobe = toldLobe(lobe.x, lobe.y, materials[material].specularF0);
+    lobe = toldLobe(color, lobe.x, lobe.y, materials[material].specularF0);
     bool unlit = (materials[material].flags & MATERIAL_UNLIT) != 0u;
     if (unlit) return TriangleMaterial(vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0));
     return TriangleMaterial(albedo, lamp ? vec3(0.0) : emission, lamp ? emission : vec3(0.0), lobe);

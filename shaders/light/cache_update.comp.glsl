@@ -6,6 +6,7 @@
 //
 // FIND_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
+#define CACHED_PART 1
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
@@ -14,6 +15,7 @@ layout(std140) uniform CacheBlock { CacheConstants cache; };
 uniform usamplerBuffer order;
 uniform usamplerBuffer stateTexels;
 layout(std430) writeonly buffer StateTable { FaceCache states[]; };
+layout(std430) writeonly buffer GatheredTable { uvec2 gathered[]; };
 
 // Places 0 to 3 along three axes -> 4 x 4 shifts, all of them on any plane along two of the axes.
 vec2 spreadPlace(uvec3 place) {
@@ -42,15 +44,14 @@ void main() {
     EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
                                                    int(cache.reflections), cache.fireflyClamp);
     float backFaceShare;
-    vec3 gathered =
-        estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
+    vec3 found = estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;
     // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like
     // sqrt(n): what came before bounces had settled is soon outweighed.
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
-    state.irradiance += (gathered - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
+    state.irradiance += (found - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
 #if FIND_BACK_FACES
     uint rays = (state.counts >> 16) & 0xffu;
@@ -59,4 +60,5 @@ void main() {
             (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
 #endif
     states[face] = state;
+    gathered[face] = uvec2(packRgb9e5(found - gatheredCached), packRgb9e5(returnedCached));
 }

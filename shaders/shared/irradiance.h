@@ -37,6 +37,13 @@
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_INTERIOR_RAYS 16
 
+// What faces gather is added up by groups of so many lanes, of which each takes so many faces (cache_balance).
+#define BALANCE_LANES 64u
+#define BALANCE_FACES_OF_LANE 16u
+#define BALANCE_GROUP 256  // invocations that add up the groups
+// Of the cached light that faces send out, what other faces gather is taken to be this part of it at most.
+#define BALANCE_MOST_RETURNED 0.98
+
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
 // bricks.
 #define CACHE_BINS_PER_BLOCK 384u
@@ -100,6 +107,28 @@ struct CacheConstants {
     vec4 placeParts[CHANGED_FOURS];  // of their cross-sections, how much changed, [0,1]
 };                                   // 368 B
 
+// The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
+struct CacheBalance {
+    vec3 cached;  // the light that they have cached
+    float pad0;   //
+    vec3 fresh;   // what an update gathers that comes from sources, as the mean of updates
+    float pad1;   //
+    vec3
+        returned;  // of the cached light, the part that an update gathers again, [0,1], as the mean of updates
+    float pad2;    //
+    vec3 correction;  // factor that makes the cached light what fresh light and all its returns add up to
+    float pad3;
+};  // 64 B
+
+// Uniform block of cache_balance.
+struct CacheBalancing {
+    uint groups;   // of STEP 0
+    float weight;  // of this update in means, as (4.13) has it; 0: light is added up alone
+    float
+        cachedBefore;  // of the cached light that rays have read, the part that is of before the update, [0,1]
+    uint pad0;
+};  // 16 B
+
 // Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
 // inside closed objects.
 struct CacheRanges {
@@ -133,6 +162,8 @@ CONELIGHT_SHARED_END
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
 static_assert(sizeof(conelight::gpu::CacheConstants) == 368);
+static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
+static_assert(sizeof(conelight::gpu::CacheBalancing) == 16);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);

@@ -146,11 +146,12 @@ Surface evaluateSurface(VoxelTriangle t, ClippedPolygon polygon) {
     // Evaluate emission and lobe there; what is unlit stays black.
     vec3 emission = materials[m].emission * surfaceTexel(m, layers.w, kUseEmissive, uv, footprint).rgb;
     vec2 lobe = metalRoughAt(m, uv, footprint);
-    vec3 albedo = evenAlbedo(color.rgb * texel.rgb, lobe.x, lobe.y, materials[m].specularF0);
+    vec3 base = color.rgb * texel.rgb;
+    vec3 albedo = evenAlbedo(base, lobe.x, lobe.y, materials[m].specularF0);
     albedo = layeredAlbedo(albedo, materials[m].evenLayers);
     uint lobeBits = 0u;
 #if SURFACE_LOBES
-    vec2 told = toldLobe(lobe.x, lobe.y, materials[m].specularF0);
+    vec2 told = toldLobe(base, lobe.x, lobe.y, materials[m].specularF0);
     lobeBits = packLobe(told.x, told.y);
 #endif
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;

@@ -168,6 +168,7 @@ void IrradianceCache::restartAverages(const EditSpheres& changed) {
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
+    balance_.restart();
     facesVisited_ = 0;
 }
 
@@ -293,7 +294,8 @@ gl::Inputs IrradianceCache::givenToUpdates(const Inputs& inputs) const {
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_)
-        .texture("order", order_.texels());
+        .texture("order", order_.texels())
+        .add(balance_);
     return given;
 }
 
@@ -370,11 +372,18 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) co_return;
+    balance_.reserve(faceCount_);
     if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
+        const int rounds = updates();
+        const LightBalance::Faces faces{inputs.voxels.surface(), inputs.faces, states_, stateTexels_};
+        // Where things move, light is changed again before the second update.
+        if (settings.averages && rounds > 0) balance_.begin(device, faces);
         if (goesUncounted(settings)) {
             visitUncounted(device, inputs, settings);
             ++updatesMade_;
+            if (settings.averages && rounds > 0)
+                balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), 1.0f});
             co_await commit(device, inputs, settings, i + 1 == passes);
             continue;
         }
@@ -389,13 +398,17 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
+        if (settings.averages && rounds > 0 && updates() > rounds)
+            balance_.correct(device, faces,
+                             {std::min(rounds, settings.longestWindow),
+                              static_cast<float>(count) / static_cast<float>(order_.visited())});
         co_await commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {
             const gl::PassScope scope(device.profiler, "irradiance: order");
-            const int rounds = updates();
+            const int made = updates();
             sort(device, inputs.voxels.surface(), false).finish();  // half sorted, it would be of no use
-            facesVisited_ = static_cast<std::uint64_t>(rounds) * order_.visited();
+            facesVisited_ = static_cast<std::uint64_t>(made) * order_.visited();
         }
     }
     if (passes > 0) ++updatesOfVoxels_;
@@ -404,6 +417,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
 void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
+    balance_.release();
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
@@ -424,8 +438,8 @@ std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
                                        pass("reproject"), pass("share"), pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
-    const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();
-    descs.insert(descs.end(), order.begin(), order.end());
+    for (const auto& more : {FaceOrder::programDescs(), LightBalance::programDescs()})
+        descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }
 

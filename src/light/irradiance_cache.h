@@ -14,6 +14,7 @@
 #include "gl/device.h"
 #include "light/edit_places.h"
 #include "light/face_order.h"
+#include "light/light_balance.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
@@ -128,6 +129,7 @@ class IrradianceCache {
         reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_;
     gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
+    LightBalance balance_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
     bool carried_ = false;   // the voxels took over light from those before

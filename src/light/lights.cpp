@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "gl/pace.h"
+#include "math/brdf.h"
 #include "scene/emissive_quads.h"
 #include "scene/gpu_lights.h"
 #include "scene/gpu_materials.h"
@@ -27,7 +28,7 @@ Lobes lobesOf(const scene::GpuScene& scene) {
     for (const gpu::Instance& instance : scene.instances()) {
         const gpu::Material& m = scene.materials()[instance.material];
         if ((instance.flags & INSTANCE_VOXELIZED) == 0 || (m.flags & MATERIAL_UNLIT) != 0) continue;
-        if (m.metallic > 0) return Lobes::Metals;
+        if (math::metallicSurface(m.baseColor, m.metallic, m.specularF0).metallic > 0) return Lobes::Metals;
         if (scene::isGlossyDielectric(m)) found = Lobes::Dielectrics;
     }
     return found;

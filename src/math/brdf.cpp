@@ -62,18 +62,34 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
 
 float evenCoat(float roughness) { return evenAlbedo(glm::vec3(0), 0, roughness, glm::vec3(kCoatF0)).r; }
 
+MetallicSurface metallicSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0) {
+    const auto sum = [](const glm::vec3& v) { return v.r + v.g + v.b; };
+    glm::vec3 more = glm::max(dielectricF0 - (kDielectricF0 + 1e-4f), 0.0f);
+    if (sum(more) == 0.0f) return {baseColor, metallic, dielectricF0};
+    const glm::vec3 body = baseColor * ((1.0f - largest(dielectricF0)) / (1.0f - kDielectricF0));
+    float metal = sum(more) / (sum(more) + sum(body));
+    more = glm::max(dielectricF0 - (1.0f - metal) * kDielectricF0, 0.0f);
+    metal = sum(more) / (sum(more) + sum(body));
+    const glm::vec3 color =
+        glm::min(body + glm::max(dielectricF0 - (1.0f - metal) * kDielectricF0, 0.0f), 1.0f);
+    return {glm::mix(color, baseColor, metallic), glm::mix(metal, 1.0f, metallic),
+            glm::min(dielectricF0, kDielectricF0)};
+}
+
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0) {
+    const MetallicSurface told = metallicSurface(baseColor, metallic, dielectricF0);
     constexpr float kEvenLobe = 0.5f;
     const float r = std::max(roughness, kMinRoughness);
     const float both =
         0.9997027f + r * (-0.01521229f + r * (0.3516476f + r * (-2.2508005f + r * 1.3269485f)));
     const float grazing =
         0.04557508f + r * (0.05997143f + r * (-0.4956394f + r * (0.670405f + r * -0.2784238f)));
-    const float f90 = std::clamp(50.0f * largest(dielectricF0), 0.0f, 1.0f);
-    const glm::vec3 own = kEvenLobe * (dielectricF0 * (both - grazing) + f90 * grazing) *
-                          (1.0f + dielectricF0 * (1.0f / both - 1.0f));
-    return glm::mix(baseColor * (1.0f - largest(own)) + own, baseColor, metallic);
+    const glm::vec3& f0 = told.dielectricF0;
+    const float f90 = std::clamp(50.0f * largest(f0), 0.0f, 1.0f);
+    const glm::vec3 own =
+        kEvenLobe * (f0 * (both - grazing) + f90 * grazing) * (1.0f + f0 * (1.0f / both - 1.0f));
+    return glm::mix(told.baseColor * (1.0f - largest(own)) + own, told.baseColor, told.metallic);
 }
 
 float ggxVisible(float alpha, float NoH, float NoL, float NoV) {

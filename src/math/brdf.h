@@ -26,6 +26,18 @@ glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float VoH);
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
               float NoV);
 
+// Reflectance of dielectrics as rays are told of it.
+constexpr float kDielectricF0 = 0.04f;
+
+// A surface as rays are told of it: a dielectric that reflects more than kDielectricF0 counts as partly metal. Shader twin:
+// metallicSurface in shaders/lib/brdf.glsl.
+struct MetallicSurface {
+    glm::vec3 baseColor;
+    float metallic;
+    glm::vec3 dielectricF0;
+};
+MetallicSurface metallicSurface(const glm::vec3& baseColor, float metallic, const glm::vec3& dielectricF0);
+
 // Reflectance in even light, both lobes; what voxels keep as a surface's colour.
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0);

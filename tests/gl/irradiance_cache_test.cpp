@@ -11,6 +11,7 @@
 #include "io/generated_shapes.h"
 #include "io/scene_file.h"
 #include "math/brdf.h"
+#include "scene/gpu_materials.h"
 #include "support/cache_rig.h"
 #include "support/gl_fixture.h"
 #include "support/scenes.h"
@@ -62,6 +63,28 @@ Scene room(float albedo) {
 double grey(const glm::vec3& v) { return static_cast<double>(v.x + v.y + v.z) / 3; }
 
 class IrradianceCacheTest : public GlTest {};
+
+// What reflects much in its lobe is told to rays as a metal, whatever it is called.
+TEST_F(IrradianceCacheTest, StrongLobesAreThoseOfMetals) {
+    Material material = diffuseMaterial({0.2f, 0.1f, 0.2f});
+    material.specular = 1;
+    material.specularColor = glm::vec3(20);
+    material.roughness = 0.3f;
+    Scene scene;
+    addInstance(scene, boxOfQuads(false), material);
+    scene.lights.push_back(pointLight({0.5f, 0.8f, 0.5f}, 1));
+    CacheRig rig(programs(), scene, 16);
+    const math::MetallicSurface told =
+        math::metallicSurface({0.2f, 0.1f, 0.2f}, 0, scene::packedMaterial(material, {}).specularF0);
+    EXPECT_GT(told.metallic, 0.9f);
+    const glm::vec3 expected = math::evenAlbedo(told.baseColor, told.metallic, 0.3f, glm::vec3(0.04f));
+    for (const CachedFace& face : rig.faces())
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(face.albedo[k], expected[k], 1e-3f);
+    for (const auto& face : rig.lit.buffer().read<gpu::LitFace>(rig.surface.faceCount()))
+        EXPECT_NEAR(static_cast<float>(face.irradiance1 >> (FACE_LOBE_SHIFT + 5) & 15u) / 15.0f,
+                    told.metallic, 1.0f / 15);
+    EXPECT_TRUE(rig.lights.hitKey(rig.scene, true).lobes);
+}
 
 // What rays find of a dielectric holds its lobe, or rooms with floors of wood and stone are too dark. Metals
 // keep their colour: their lobes are traced.
@@ -240,10 +263,11 @@ TEST_F(IrradianceCacheTest, EmissionFitsAnewWhereALampHasMoved) {
     EXPECT_EQ(radiance(rig), radiance(CacheRig(programs(), after, 32)));
 }
 
-// Every update adds a bounce, none more than albedo times the one before.
+// Every update adds a bounce, none more than albedo times the one before, where bounces are counted.
 TEST_F(IrradianceCacheTest, EnergyGrowsWithBouncesAndIsBounded) {
     const double albedo = 0.7;
     CacheRig rig(programs(), room(static_cast<float>(albedo)), 32);
+    rig.settings.averages = false;
     rig.settings.cosineRays = 16;
     rig.settings.lightRays = 16;
     const double direct = rig.mean([](const CachedFace& f) { return grey(f.radiance); });
@@ -262,6 +286,39 @@ TEST_F(IrradianceCacheTest, EnergyGrowsWithBouncesAndIsBounded) {
     // Closed room of one albedo: sum of all bounces is direct light / (1 - albedo).
     rig.update(20);
     EXPECT_NEAR(rig.meanIrradiance() / (direct / (1 - albedo)), 1, 0.02);
+}
+
+// What is reflected in a room of this albedo after many updates, over its direct light. In a large grid 1 / (1 - albedo).
+double settledLight(gl::ProgramLibrary& programs, float albedo) {
+    CacheRig rig(programs, room(albedo), 24);
+    rig.update(200);
+    return rig.meanIrradiance();
+}
+
+// Each update adds a bounce: 16 leave out a fifth of the light of a white room.
+TEST_F(IrradianceCacheTest, BouncesOfWhiteRoomsSettle) {
+    for (const float albedo : {0.5f, 0.9f}) {
+        CacheRig rig(programs(), room(albedo), 24);
+        rig.update(16);
+        EXPECT_NEAR(rig.meanIrradiance() / settledLight(programs(), albedo), 1, 0.02) << albedo;
+    }
+}
+
+// The same by updates of a third of the faces at a time, and after a lamp has become brighter.
+TEST_F(IrradianceCacheTest, BouncesSettleInPartsAndAfterChanges) {
+    const float albedo = 0.9f;
+    const double settled = settledLight(programs(), albedo);
+    Scene scene = room(albedo);
+    CacheRig rig(programs(), scene, 24);
+    rig.update(1);
+    rig.settings.facesPerUpdate = rig.cache.faces() / 3 + 1;
+    rig.update(48);
+    EXPECT_NEAR(rig.meanIrradiance() / settled, 1, 0.02);
+    scene.lights[0].intensity *= 3;
+    rig.scene.setLights(scene.lights);
+    rig.relight();
+    rig.update(48);
+    EXPECT_NEAR(rig.meanIrradiance() / settled, 3, 0.06);
 }
 
 TEST_F(IrradianceCacheTest, SameBitsEveryTime) {

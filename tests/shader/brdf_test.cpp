@@ -83,6 +83,27 @@ TEST(BrdfTest, EvenAlbedoIsHalfTheLobeOverTheBase) {
     }
 }
 
+// What rays are told of a dielectric reflects what it does, body and lobe, whatever its F0.
+TEST(BrdfTest, MetallicSurfacesReflectTheSame) {
+    for (const float f0 : {0.0f, 0.02f, 0.04f, 0.06f, 0.17f, 0.5f, 0.8f, 1.0f})
+        for (const float base : {0.0f, 0.1f, 0.5f, 1.0f}) {
+            const math::MetallicSurface told = math::metallicSurface(glm::vec3(base), 0, glm::vec3(f0));
+            if (f0 <= 0.04f) {
+                EXPECT_EQ(told.baseColor, glm::vec3(base));
+                EXPECT_EQ(told.metallic, 0.0f);
+                EXPECT_EQ(told.dielectricF0, glm::vec3(f0));
+            }
+            const math::Brdf is = math::makeBrdf(glm::vec3(base), 0, 0.3f, glm::vec3(f0), 0.8f);
+            const math::Brdf as =
+                math::makeBrdf(told.baseColor, told.metallic, 0.3f, told.dielectricF0, 0.8f);
+            EXPECT_NEAR(as.f0.x, is.f0.x, 0.02f) << f0 << ' ' << base;
+            EXPECT_NEAR(as.diffuse.x, is.diffuse.x, 0.03f) << f0 << ' ' << base;
+        }
+    const math::MetallicSurface metal = math::metallicSurface(glm::vec3(0.7f), 1, glm::vec3(0.5f));
+    EXPECT_EQ(metal.metallic, 1.0f);
+    EXPECT_EQ(metal.baseColor, glm::vec3(0.7f));
+}
+
 TEST(BrdfTest, NoSpecularMeansLambert) {
     const math::Brdf brdf = math::makeBrdf(glm::vec3(0.7f), 0, 0.5f, glm::vec3(0), 0.3f);
     EXPECT_FLOAT_EQ(brdf.diffuse.x, 0.7f);

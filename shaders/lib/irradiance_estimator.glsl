@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The irradiance estimator that the cache and the pixels share: SurfacePoint -> estimateIrradiance, irradiance / pi by
+// multiple importance sampling. Part of lib/voxel_light.glsl. Method: docs/theory/4c_estimator.md.
+#include "lib/cached_part.glsl"
+#include "lib/dot.glsl"
+#include "lib/light_sample.glsl"
+#if ENVIRONMENT
+#include "lib/environment_sample.glsl"
+#endif
+
+// Direction of density cos / pi about n (Malley's method).
+vec3 cosineDirection(vec3 n, vec2 xi) {
+    vec3 u, v;
+    tangentFrame(n, u, v);
+    float r = sqrt(xi.x);
+    float phi = 2.0 * kGatherPi * xi.y;
+    return r * cos(phi) * u + r * sin(phi) * v + sqrt(max(1.0 - xi.x, 0.0)) * n;
+}
+
+#if FIND_BACK_FACES
+// Whether a ray that found `hit` passed a back face on its way, beyond kRayBackNear. Traced backwards, a ray
+// meets those faces from the front. One more ray is cheaper than testing both sides at once, which costs two
+// to three: then octant words cannot skip empty space.
+bool passedBackFace(Ray ray, VoxelHit hit) {
+#if NESTED_GRIDS
+    float leave = levelSpan(ray, rayInverse(ray.direction), coarsestLevel()).y;
+    float end = min(hit.t, leave - kRayEnd * levelPlace(coarsestLevel()).w);
+    float near = kRayBackNear * voxelEdgeAt(ray.origin);
+#else
+    vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(ray.direction, vec3(0.0))) - ray.origin) *
+                 rayInverse(ray.direction);
+    float end = min(hit.t, min(min(leave.x, leave.y), leave.z) - kRayEnd);
+    const float near = kRayBackNear;
+#endif
+    // The other side of the surface that was hit does not count.
+    vec3 hitNormal = hit.face >= 0 ? faceNormalOf(hit.face) : vec3(0.0);
+    Ray backwards = Ray(ray.origin + end * ray.direction, -ray.direction, end - near, hitNormal);
+    return traceVoxels(backwards).face >= 0;
+}
+#endif
+
+// Where irradiance is estimated, in grid coordinates.
+struct SurfacePoint {
+    vec3 origin;  // of the rays
+    vec3 geometricNormal;
+    vec3 shadingNormal;
+};
+
+// Which part of the quasirandom sequences an estimate uses. Estimates with the same seed complement each
+// other if their indices are 0, 1, 2 ..., or if their shifts (Cranley-Patterson rotations) are evenly spread.
+struct SequenceState {
+    uint seed;
+    uint index;
+    vec3 shift;  // in [0,1)^3
+};
+
+struct EstimatorSettings {
+    int cosineSamples;
+    int lightSamples;
+    int maxBounces;
+    float fireflyClamp;
+};
+
+const int kTowardsSky = -2;
+
+// Share of the light-sampled rays that go to the surroundings, not to faces.
+float skySampleShare(float inverseFlux) {
+#if ENVIRONMENT
+    return inverseFlux > 0.0 ? kEnvironmentShare : 1.0;
+#else
+    return 0.0;
+#endif
+}
+
+// A ray drawn by one of the two techniques.
+struct SampledRay {
+    Ray ray;
+    float cosine;          // about the shading normal
+    bool valid;            // above the surface, and towards the front of a light face
+    int lightFace;         // kTowardsSky: none, the surroundings
+    float targetDistance;  // light-sampled ray: distance of its point; else negative
+};
+
+// Ray `i` of an estimate: cosine-sampled ones first, then light-sampled ones.
+SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceState sequence, int i,
+                     float inverseFlux) {
+    bool lightSampled = i >= settings.cosineSamples;
+
+    // Sample a point on a light face
+    uint lightIndex = sequence.index * uint(settings.lightSamples) + uint(max(i - settings.cosineSamples, 0));
+    vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + sequence.shift.zxy);
+#if ENVIRONMENT
+    float skyShare = skySampleShare(inverseFlux);
+    bool towardsSky = lightSampled && xiLight.x < skyShare;
+    vec3 skyDirection = environmentDirection(vec2(xiLight.x / skyShare, xiLight.y));
+    xiLight.x = max(xiLight.x - skyShare, 0.0) / max(1.0 - skyShare, 1e-6);
+#else
+    const bool towardsSky = false;
+#endif
+    LightSample light = LightSample(-1, point.origin, vec3(0.0));
+    if (EXECUTION_GPU == 0 || lightSampled) light = sampleLightFace(xiLight, point.origin);
+    vec3 toLight = light.point - point.origin;
+    float lightDistance = length(toLight);
+
+    // Sample the cosine lobe
+    uint cosineIndex = sequence.index * uint(settings.cosineSamples) + uint(i);
+    vec2 xi = fract(sequencePoint(sequence.seed, cosineIndex) + sequence.shift.xy);
+    vec3 direction =
+        lightSampled ? toLight / max(lightDistance, 1e-6) : cosineDirection(point.shadingNormal, xi);
+
+#if ENVIRONMENT
+    direction = towardsSky ? skyDirection : direction;
+#endif
+
+    // Reject directions below the surface, and light faces that are turned away
+    float cosine = dot(direction, point.shadingNormal);
+    bool valid = cosine > 0.0 && dot(direction, point.geometricNormal) > 0.0;
+    valid = valid && (!lightSampled || towardsSky ||
+                      (light.face >= 0 && dot(direction, light.normal) < 0.0 && inverseFlux > 0.0));
+
+    // End a light-sampled ray behind its point
+    bool ends = lightSampled && !towardsSky;
+    float tMax = ends ? lightDistance + faceEdge(max(light.face, 0)) : 1e9;
+    Ray ray = Ray(point.origin, direction, valid ? tMax : -1.0, point.geometricNormal);
+    return SampledRay(ray, cosine, valid, towardsSky ? kTowardsSky : light.face,
+                      lightSampled ? (towardsSky ? 1e9 : lightDistance) : -1.0);
+}
+
+// A light sample counts only if it reached its own face: others are occluded, or their density is that of
+// another face. One towards the surroundings counts if it met nothing.
+bool reachesItsLight(SampledRay drawn, VoxelHit hit) {
+    bool reached = hit.face >= 0 ? hit.face == drawn.lightFace : drawn.lightFace == kTowardsSky;
+#if NEAR_TRIANGLES
+    // Light samples lie on plane pieces: near by, only cosine-sampled rays count.
+    reached = reached && !hit.near;
+#endif
+    return reached;
+}
+
+// Density per steradian among light-sampled rays, given what the ray hit; `skyPdf`: of its direction among those
+// that go to the surroundings.
+float lightPdf(Ray ray, VoxelHit hit, float inverseFlux, float skyPdf) {
+    float skyShare = skySampleShare(inverseFlux);
+    float pdf = (1.0 - skyShare) * lightFacePdf(ray, hit, inverseFlux);
+    pdf = hit.face >= 0 ? pdf : skyShare * skyPdf;
+#if NEAR_TRIANGLES
+    pdf = hit.near ? 0.0 : pdf;
+#endif
+    return pdf;
+}
+
+// Irradiance / pi at a point (4.12): cosine-sampled and light-sampled rays, combined by the balance heuristic
+// (Veach and Guibas 1995). Light-sampled rays go to faces, and to the picture of the surroundings where there
+// is one. A miss sees the sky. backFaceShare: share of cosine-sampled rays that passed a back face.
+vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
+                        out float backFaceShare) {
+    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
+    uint random = randomHash(sequence.seed) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
+    vec3 sum = vec3(0.0);
+    BEGIN_CACHED();
+    float backFaces = 0.0;
+    int count = settings.cosineSamples + settings.lightSamples;
+    int i = 0;
+    do {
+        // Draw a ray
+        bool lightSampled = i >= settings.cosineSamples;
+        SampledRay drawn = sampleRay(point, settings, sequence, i, inverseFlux);
+        COUNT_LOOKUP(lightSampled ? 2 : 0);  // the light sample and its record
+
+        // Intersect the voxels and follow glossy bounces
+        VoxelHit hit;
+        PathSettings path =
+            PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp, 0.0);
+        vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
+        CACHED_SHARE(radiance);
+        float skyPdf = 0.0;
+#if ENVIRONMENT
+        vec3 cell = environmentCell(drawn.ray.direction, skyPdf);
+        radiance = hit.face >= 0 ? radiance : cell;
+#endif
+        radiance = throughGlass(radiance, drawn.ray, hit);
+#if FIND_BACK_FACES
+        // Discard rays that passed a back face
+        VoxelHit searched = hit;
+        if (lightSampled) searched.t = -1.0;
+        if (passedBackFace(drawn.ray, searched)) {
+            hit.face = -1;
+            radiance = vec3(0.0);
+            backFaces += lightSampled ? 0.0 : 1.0;
+        }
+#endif
+
+        // Compute the MIS weight: both techniques' densities for this direction
+        bool reached = !lightSampled || reachesItsLight(drawn, hit);
+        float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +
+                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, inverseFlux, skyPdf);
+        float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);
+
+        // Add the contribution
+        vec3 contribution = drawn.valid && reached ? radiance * misWeight : vec3(0.0);
+        sum += contribution;
+        ADD_CACHED(contribution,
+                   drawn.valid && !lightSampled ? radiance / float(settings.cosineSamples) : vec3(0.0));
+        RECORD_RAY(lightSampled ? PATH_LIGHT_RAY : PATH_COSINE_RAY, drawn.ray, hit, 1.0, vec3(misWeight),
+                   radiance, drawn.valid && reached);
+    } while (++i < count);
+    backFaceShare = backFaces / float(max(settings.cosineSamples, 1));
+    return sum;
+}
