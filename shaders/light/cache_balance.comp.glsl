@@ -107,8 +107,8 @@ void main() {
         balance.fresh += balancing.weight * (sums.fresh - balance.fresh);
         balance.returned += balancing.weight * (returned - balance.returned);
         vec3 wanted = balance.fresh / (1.0 - balance.returned);
-        balance.correction =
-            mix(vec3(1.0), wanted / max(sums.cached, 1e-20), greaterThan(sums.cached, vec3(1e-20)));
+        vec3 whole = mix(vec3(1.0), wanted / max(sums.cached, 1e-20), greaterThan(sums.cached, vec3(1e-20)));
+        balance.correction = mix(vec3(1.0), whole, balancing.step);
         sums.cached *= balance.correction;
     }
     balance.cached = sums.cached;

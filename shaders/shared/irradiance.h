@@ -126,8 +126,8 @@ struct CacheBalancing {
     float weight;  // of this update in means, as (4.13) has it; 0: light is added up alone
     float
         cachedBefore;  // of the cached light that rays have read, the part that is of before the update, [0,1]
-    uint pad0;
-};  // 16 B
+    float step;        // part of the correction that is made, [0,1]
+};                     // 16 B
 
 // Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
 // inside closed objects.

@@ -117,6 +117,12 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
     }
     carried_ = hadFaces_ && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_ &&
                (old->grid.levels > 1) == (voxels.grid().levels > 1);
+    if (!carried_) {
+        dark_ = true;
+        balance_.restart(dark_                       ? LightBalance::Since::Dark
+                         : restartsNear_.has_value() ? LightBalance::Since::Edits
+                                                     : LightBalance::Since::Change);
+    }
     reserve(surface.mostFaces());
     faceCount_ = surface.mostFaces();
     {
@@ -168,7 +174,9 @@ void IrradianceCache::restartAverages(const EditSpheres& changed) {
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
-    balance_.restart();
+    balance_.restart(dark_                       ? LightBalance::Since::Dark
+                     : restartsNear_.has_value() ? LightBalance::Since::Edits
+                                                 : LightBalance::Since::Change);
     facesVisited_ = 0;
 }
 
@@ -373,6 +381,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
                      "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) co_return;
     balance_.reserve(faceCount_);
+    if (passes > 0) dark_ = false;
     if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const int rounds = updates();

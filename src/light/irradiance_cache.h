@@ -138,6 +138,7 @@ class IrradianceCache {
 
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
+    bool dark_ = true;  // no face has light
     EditSpheres restartsNear_;
     std::uint32_t updatesMade_ = 0;              // ever
     bool unfinished_ = false;                    // the last one was left

@@ -9,6 +9,9 @@
 namespace conelight::light {
 namespace {
 
+// Part of the correction that an update makes of light that is seen: none is to be noticed.
+constexpr float kStep = 0.25f;
+
 gl::ProgramDesc balanceStep(int step) {
     return {{"light/cache_balance.comp.glsl"}, {{"STEP", std::to_string(step)}}};
 }
@@ -45,25 +48,26 @@ void LightBalance::release() {
 }
 
 void LightBalance::begin(const gl::Device& device, const Faces& faces) {
-    if (!measured_) addUp(device, faces, 0, 0);
+    if (!measured_ && since_ != Since::Edits) addUp(device, faces, {});
 }
 
 void LightBalance::correct(const gl::Device& device, const Faces& faces, const Update& update) {
     if (!measured_) return;
+    gpu::CacheBalancing how{};
     // As (4.13), but from the beginning: what is averaged is right before bounces have settled.
-    const float weight = 1.5f / (static_cast<float>(update.number - 1) + 1.5f);
+    how.weight = 1.5f / (static_cast<float>(update.number - 1) + 1.5f);
     // The rays of the first part have read the light of before, those of others some of its end, too.
-    addUp(device, faces, weight, 0.5f + 0.5f * update.part);
+    how.cachedBefore = 0.5f + 0.5f * update.part;
+    how.step = since_ == Since::Dark ? 1.0f : update.number > IRRADIANCE_SETTLE ? kStep : 0.0f;
+    addUp(device, faces, how);
 }
 
 // With a weight, the sums correct the light.
-void LightBalance::addUp(const gl::Device& device, const Faces& faces, float weight, float cachedBefore) {
+void LightBalance::addUp(const gl::Device& device, const Faces& faces, const gpu::CacheBalancing& how) {
     const gl::PassScope scope(device.profiler, "irradiance: balance");
     const std::size_t count = faces.surface.mostFaces();
-    gpu::CacheBalancing block{};
+    gpu::CacheBalancing block = how;
     block.groups = static_cast<std::uint32_t>(balanceGroups(count));
-    block.weight = weight;
-    block.cachedBefore = cachedBefore;
     block_.update(block);
     gl::Inputs given;
     given.add(faces.surface)
@@ -78,7 +82,7 @@ void LightBalance::addUp(const gl::Device& device, const Faces& faces, float wei
     gl::barrier(gl::Access::ShaderStorage);
     device.get(balanceStep(1)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage);
-    if (weight > 0) device.get(balanceStep(2)).dispatchLinear(given, count);
+    if (how.step > 0) device.get(balanceStep(2)).dispatchLinear(given, count);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
     measured_ = true;
 }

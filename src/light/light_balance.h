@@ -9,6 +9,7 @@
 
 #include "gl/device.h"
 #include "light/lit_faces.h"
+#include "shared/irradiance.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight::light {
@@ -30,8 +31,16 @@ class LightBalance {
     // Room for so many faces; before updates, which write what they gather.
     void reserve(std::size_t faces);
     void release();  // until then
-    // Light has changed: what was gathered is of another.
-    void restart() { measured_ = false; }
+    enum class Since {
+        Dark,    // no face had light: it is corrected at once
+        Change,  // all light is another: it is corrected when means of what was there are gone, in steps
+        Edits,  // near some places: means of many updates know more than a few new ones, nothing is corrected
+    };
+    // What was gathered is of other light.
+    void restart(Since since) {
+        measured_ = false;
+        since_ = since;
+    }
     // Before an update: adds up the light of all faces, if that is not known.
     void begin(const gl::Device& device, const Faces& faces);
     // After an update that has begun so: corrects the light of all faces. Without begin() it does nothing.
@@ -41,11 +50,12 @@ class LightBalance {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void addUp(const gl::Device& device, const Faces& faces, float weight, float cachedBefore);
+    void addUp(const gl::Device& device, const Faces& faces, const gpu::CacheBalancing& how);
 
     gl::Buffer gathered_, groupSums_, balance_, block_;
     gl::Texture gatheredTexels_;
     bool hadFaces_ = false;
+    Since since_ = Since::Dark;
     bool measured_ = false;  // balance_ holds the light of all faces as it is
 };
 

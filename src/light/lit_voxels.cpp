@@ -49,11 +49,11 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     const bool otherGrid = !first && (otherLevels || !(voxelSettings_ == inputs.voxels.settings()));
     if (budget.nothing && !otherSources && !otherSettings) co_return;
 
-    // A finished picture must not be better or worse for the settings of those before it; moving ones keep
-    // what is there. Light of a limited number of bounces starts in the dark.
+    // A finished picture must not be better or worse for those before it; moving ones keep what is there. Light of a limited number of bounces starts in the dark.
     const bool otherBounces = !first && settings_.bounces != settings.bounces;
-    const bool inTheDark = otherBounces || (settings.bounces && otherSources) ||
-                           ((otherSettings || otherGrid) && !budget.oneUpdate);
+    const bool inTheDark =
+        otherBounces || (settings.bounces && otherSources) ||
+        (!first && !budget.oneUpdate && (otherSettings || otherGrid || otherSources || changed_));
     if (inTheDark) {
         visitsBefore_ = faceVisits();
         cache_ = {};
@@ -61,9 +61,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     }
     EditSpheres changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
-    // Finished pictures keep nothing of the light before.
-    const bool forgets = !budget.oneUpdate && changed_;
-    const bool changes = inTheDark || otherSources || otherSettings || forgets;
+    const bool changes = inTheDark || otherSources || otherSettings;
     if (inTheDark || otherVoxels)
         co_await cache_.adoptInSteps(device, inputs.voxels, changed);
     else if (changes)

@@ -317,7 +317,7 @@ TEST_F(IrradianceCacheTest, BouncesSettleInPartsAndAfterChanges) {
     scene.lights[0].intensity *= 3;
     rig.scene.setLights(scene.lights);
     rig.relight();
-    rig.update(48);
+    rig.update(72);
     EXPECT_NEAR(rig.meanIrradiance() / settled, 3, 0.06);
 }
 
