@@ -119,9 +119,9 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
                (old->grid.levels > 1) == (voxels.grid().levels > 1);
     if (!carried_) {
         dark_ = true;
-        balance_.restart(dark_                       ? LightBalance::Since::Dark
-                         : restartsNear_.has_value() ? LightBalance::Since::Edits
-                                                     : LightBalance::Since::Change);
+        balance_.restart(dark_                       ? LightBalance::Restart::Dark
+                         : restartsNear_.has_value() ? LightBalance::Restart::Edits
+                                                     : LightBalance::Restart::Everything);
     }
     reserve(surface.mostFaces());
     faceCount_ = surface.mostFaces();
@@ -174,9 +174,9 @@ void IrradianceCache::restartAverages(const EditSpheres& changed) {
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
-    balance_.restart(dark_                       ? LightBalance::Since::Dark
-                     : restartsNear_.has_value() ? LightBalance::Since::Edits
-                                                 : LightBalance::Since::Change);
+    balance_.restart(dark_                       ? LightBalance::Restart::Dark
+                     : restartsNear_.has_value() ? LightBalance::Restart::Edits
+                                                 : LightBalance::Restart::Everything);
     facesVisited_ = 0;
 }
 

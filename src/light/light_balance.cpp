@@ -48,7 +48,7 @@ void LightBalance::release() {
 }
 
 void LightBalance::begin(const gl::Device& device, const Faces& faces) {
-    if (!measured_ && since_ != Since::Edits) addUp(device, faces, {});
+    if (!measured_ && restart_ != Restart::Edits) addUp(device, faces, {});
 }
 
 void LightBalance::correct(const gl::Device& device, const Faces& faces, const Update& update) {
@@ -58,7 +58,7 @@ void LightBalance::correct(const gl::Device& device, const Faces& faces, const U
     how.weight = 1.5f / (static_cast<float>(update.number - 1) + 1.5f);
     // The rays of the first part have read the light of before, those of others some of its end, too.
     how.cachedBefore = 0.5f + 0.5f * update.part;
-    how.step = since_ == Since::Dark ? 1.0f : update.number > IRRADIANCE_SETTLE ? kStep : 0.0f;
+    how.step = restart_ == Restart::Dark ? 1.0f : update.number > IRRADIANCE_SETTLE ? kStep : 0.0f;
     addUp(device, faces, how);
 }
 

@@ -31,15 +31,15 @@ class LightBalance {
     // Room for so many faces; before updates, which write what they gather.
     void reserve(std::size_t faces);
     void release();  // until then
-    enum class Since {
-        Dark,    // no face had light: it is corrected at once
-        Change,  // all light is another: it is corrected when means of what was there are gone, in steps
+    enum class Restart {
+        Dark,        // no face had light: it is corrected at once
+        Everything,  // all light is another: it is corrected when means of what was there are gone, in steps
         Edits,  // near some places: means of many updates know more than a few new ones, nothing is corrected
     };
     // What was gathered is of other light.
-    void restart(Since since) {
+    void restart(Restart kind) {
         measured_ = false;
-        since_ = since;
+        restart_ = kind;
     }
     // Before an update: adds up the light of all faces, if that is not known.
     void begin(const gl::Device& device, const Faces& faces);
@@ -55,7 +55,7 @@ class LightBalance {
     gl::Buffer gathered_, groupSums_, balance_, block_;
     gl::Texture gatheredTexels_;
     bool hadFaces_ = false;
-    Since since_ = Since::Dark;
+    Restart restart_ = Restart::Dark;
     bool measured_ = false;  // balance_ holds the light of all faces as it is
 };
 
