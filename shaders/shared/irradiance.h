@@ -41,7 +41,8 @@
 #define BALANCE_LANES 64u
 #define BALANCE_FACES_OF_LANE 16u
 #define BALANCE_GROUP 256  // invocations that add up the groups
-// Of the cached light that faces send out, what other faces gather is taken to be this part of it at most.
+// Of the cached light that faces send out, what other faces gather is taken to be this part of it at most: noise never
+// makes light more than 50 times its sources.
 #define BALANCE_MOST_RETURNED 0.98
 
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
@@ -110,24 +111,25 @@ struct CacheConstants {
 // The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
 struct CacheBalance {
     vec3 cached;  // the light that they have cached
-    float pad0;   //
-    vec3 fresh;   // what an update gathers that comes from sources, as the mean of updates
-    float pad1;   //
-    vec3
-        returned;  // of the cached light, the part that an update gathers again, [0,1], as the mean of updates
-    float pad2;    //
+    float pad0;
+    // ---- 16 B
+    vec3 fresh;  // what an update gathers from sources: mean of updates
+    float pad1;
+    // ---- 32 B
+    vec3 returned;  // the part of the cached light that an update gathers again, [0,1]: mean of updates
+    float pad2;
+    // ---- 48 B
     vec3 correction;  // factor that makes the cached light what fresh light and all its returns add up to
     float pad3;
 };  // 64 B
 
 // Uniform block of cache_balance.
 struct CacheBalancing {
-    uint groups;   // of STEP 0
-    float weight;  // of this update in means, as (4.13) has it; 0: light is added up alone
-    float
-        cachedBefore;  // of the cached light that rays have read, the part that is of before the update, [0,1]
-    float step;        // part of the correction that is made, [0,1]
-};                     // 16 B
+    uint groups;         // of STEP 0
+    float weight;        // of this update in means, as (4.13) has it; 0: light is added up alone
+    float cachedBefore;  // part of the light that rays have read which is of before the update, [0,1]
+    float step;          // part of the correction that is made, [0,1]
+};                       // 16 B
 
 // Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
 // inside closed objects.

@@ -119,9 +119,7 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
                (old->grid.levels > 1) == (voxels.grid().levels > 1);
     if (!carried_) {
         dark_ = true;
-        balance_.restart(dark_                       ? LightBalance::Restart::Dark
-                         : restartsNear_.has_value() ? LightBalance::Restart::Edits
-                                                     : LightBalance::Restart::Everything);
+        balance_.restart(LightBalance::Restart::Dark);
     }
     reserve(surface.mostFaces());
     faceCount_ = surface.mostFaces();
