@@ -5,21 +5,20 @@
 #define CACHED_PART 0
 #endif
 #if CACHED_PART
-vec3 cachedRadiance;  // what of the radiance of the last ray is cached light that its first hit reflects
-vec3 cachedShare;     // the same as a share
+// What of the radiance of the last ray is cached light that its first hit reflects, as a part of its brightness: of which
+// colour it is does not matter where all have settled.
+float cachedShare;
 vec3 gatheredCached;  // what of the estimate is cached light
 // The same by cosine-sampled rays alone. They have no noise in common: all faces draw light samples from one pool.
 vec3 returnedCached;
 
-#define CACHED_RADIANCE(value) cachedRadiance = value
+#define CACHED_SHARE(value) cachedShare = value
 #define BEGIN_CACHED() gatheredCached = returnedCached = vec3(0.0)
-#define CACHED_SHARE(radiance) cachedShare = min(cachedRadiance / max(radiance, 1e-12), 1.0)
 #define ADD_CACHED(contribution, byCosine)        \
     gatheredCached += (contribution)*cachedShare; \
     returnedCached += (byCosine)*cachedShare
 #else
-#define CACHED_RADIANCE(value)
+#define CACHED_SHARE(value)
 #define BEGIN_CACHED()
-#define CACHED_SHARE(radiance)
 #define ADD_CACHED(contribution, byCosine)
 #endif

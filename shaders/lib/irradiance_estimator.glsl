@@ -173,7 +173,6 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
             PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp, 0.0);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
-        CACHED_SHARE(radiance);
         float skyPdf = 0.0;
 #if ENVIRONMENT
         vec3 cell = environmentCell(drawn.ray.direction, skyPdf);

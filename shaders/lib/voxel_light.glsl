@@ -102,7 +102,7 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceShading s,
                  out vec3 shadingNormal) {
     int face = max(hit.face, 0);
-    CACHED_RADIANCE(vec3(0.0));
+    CACHED_SHARE(0.0);
 #if EXECUTION_GPU
     if (hit.face < 0) {
         shadingNormal = vec3(0.0, 0.0, 1.0);
@@ -123,7 +123,6 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     shadingNormal = dot(shadingNormal, shadingNormal) > 0.0 ? normalize(shadingNormal) : normal;
     s.irradiance = cached.a > 0.0 ? cached.rgb : s.irradiance;
 #endif
-    CACHED_RADIANCE(hit.face >= 0 ? s.albedo * s.irradiance : vec3(0.0));
 #if EXACT_DIRECT
     // Evaluate the punctual lights at the point
     float frontHeight = dot(faceFrontOffset(texelFetch(voxelFaces, face), normal), normal) * grid.voxelSize;
@@ -148,6 +147,9 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
 #else
     vec3 radiance = s.directRadiance + s.albedo * s.irradiance;
 #endif
+    CACHED_SHARE(hit.face >= 0
+                     ? min(brightness(s.albedo * s.irradiance) / max(brightness(radiance), 1e-12), 1.0)
+                     : 0.0);
     return hit.face >= 0 ? radiance : skyRadiance(ray.direction, width);
 }
 
@@ -255,7 +257,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         bool first = state.bounce == 0;
         if (first) firstHit = hit;
 #if CACHED_PART
-        vec3 cachedFirst = cachedRadiance;
+        float shareOfFirst = cachedShare;
 #endif
 
         // Evaluate the surface and sample its lobe
@@ -263,7 +265,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         GlossyBounce next = vertex.next;
         continues = vertex.metal && state.bounce < path.maxBounces;
 #if CACHED_PART
-        cachedRadiance = !first ? cachedFirst : vertex.metal ? vec3(0.0) : cachedRadiance;
+        cachedShare = !first ? shareOfFirst : vertex.metal ? 0.0 : cachedShare;
 #endif
 
         // Add the contribution; the last metal reflects the cached light as if diffuse
