@@ -13,8 +13,8 @@ class ThinThings : public TracedModeTest {
         Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
         settings.voxels.size = voxels;
         settings.traced.exactNear = near;
-        // A mean over pixels is asked for.
-        settings.traced.passes = 4;
+        // A mean over pixels is asked for: with 4 passes it differs by 2 % from draw to draw, with 16 by 0.5 %.
+        settings.traced.passes = 16;
         return meanOf(draw(scene, settings));
     }
 };
