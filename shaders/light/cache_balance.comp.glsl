@@ -107,7 +107,10 @@ void main() {
         balance.fresh += balancing.weight * (sums.fresh - balance.fresh);
         balance.returned += balancing.weight * (returned - balance.returned);
         vec3 wanted = balance.fresh / (1.0 - balance.returned);
-        vec3 whole = mix(vec3(1.0), wanted / max(sums.cached, 1e-20), greaterThan(sums.cached, vec3(1e-20)));
+        // So many rounds lack this part of the light, no more: what else differs is noise.
+        vec3 lacking = pow(balance.returned, vec3(balancing.rounds));
+        vec3 whole = clamp(wanted / max(sums.cached, 1e-20), 1.0 - lacking, 1.0 / (1.0 - lacking));
+        whole = mix(vec3(1.0), whole, greaterThan(sums.cached, vec3(1e-20)));
         balance.correction = mix(vec3(1.0), whole, balancing.step);
         sums.cached *= balance.correction;
     }

@@ -129,7 +129,12 @@ struct CacheBalancing {
     float weight;        // of this update in means, as (4.13) has it; 0: light is added up alone
     float cachedBefore;  // part of the light that rays have read which is of before the update, [0,1]
     float step;          // part of the correction that is made, [0,1]
-};                       // 16 B
+    // ---- 16 B
+    float rounds;  // of updates since light changed, this one included
+    float pad0;
+    float pad1;
+    float pad2;
+};  // 32 B
 
 // Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
 // inside closed objects.
@@ -165,7 +170,7 @@ static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
 static_assert(sizeof(conelight::gpu::CacheConstants) == 368);
 static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
-static_assert(sizeof(conelight::gpu::CacheBalancing) == 16);
+static_assert(sizeof(conelight::gpu::CacheBalancing) == 32);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);

@@ -58,6 +58,7 @@ void LightBalance::correct(const gl::Device& device, const Faces& faces, const U
     how.weight = 1.5f / (static_cast<float>(update.number - 1) + 1.5f);
     // The rays of the first part have read the light of before, those of others some of its end, too.
     how.cachedBefore = 0.5f + 0.5f * update.part;
+    how.rounds = static_cast<float>(update.number + 1);
     how.step = restart_ == Restart::Dark ? 1.0f : update.number > IRRADIANCE_SETTLE ? kStep : 0.0f;
     addUp(device, faces, how);
 }

@@ -190,7 +190,7 @@ std::vector<Struct> otherStructs() {
         ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
             reflections, fireflyClamp, restartsNear, placeCount, pad0, places, placeParts),
         ROW(CacheBalance, cached, pad0, fresh, pad1, returned, pad2, correction, pad3),
-        ROW(CacheBalancing, groups, weight, cachedBefore, step),
+        ROW(CacheBalancing, groups, weight, cachedBefore, step, rounds, pad0, pad1, pad2),
         ROW(CacheRanges, part, parts, pad0, pad1),
         ROW(CacheReprojection, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
