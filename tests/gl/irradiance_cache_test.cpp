@@ -288,7 +288,7 @@ TEST_F(IrradianceCacheTest, EnergyGrowsWithBouncesAndIsBounded) {
     EXPECT_NEAR(rig.meanIrradiance() / (direct / (1 - albedo)), 1, 0.02);
 }
 
-// What is reflected in a room of this albedo after many updates, over its direct light. In a large grid 1 / (1 - albedo).
+// Mean irradiance / pi in a room of this albedo after many updates.
 double settledLight(gl::ProgramLibrary& programs, float albedo) {
     CacheRig rig(programs, room(albedo), 24);
     rig.update(200);

@@ -97,7 +97,7 @@ TEST_F(NearLampsTest, WhatIsHiddenGetsNoLight) {
 TEST_F(NearLampsTest, SpotsLightTheirCone) {
     const Flux flux = fluxOf(housed({0.2f, 0.1f, -0.3f}, LightType::Spot, {0.7f}));
     const double cone = 2 * glm::pi<double>() * (1 - std::cos(glm::radians(30.0)));
-    EXPECT_NEAR(flux.ofTriangles / (3 * cone), 1, 0.35);
+    EXPECT_NEAR(flux.ofTriangles / (3 * cone), 1, 0.25);
 }
 
 }  // namespace
