@@ -60,7 +60,7 @@ Piece pieceOf(int slot) {
     uvec4 b = texelFetch(voxelFragments, 2 * slot + 1);
     vec3 n = vec3(unpackSnorm2x16(a.w), unpackSnorm2x16(b.x).x);
     vec3 center = vec3(b.x >> 16, b.y & 0xffffu, b.y >> 16) * (1.0 / 65535.0) - 0.5;
-    return Piece(uintBitsToFloat(a.y), n / max(length(n), 1e-6), center, (a.z & 0x40000000u) != 0u,
+    return Piece(uintBitsToFloat(a.y), n / max(length(n), 1e-6), center, (a.z & FRAGMENT_TWO_SIDED) != 0u,
                  int(texelFetch(voxelPairs, slot).x));
 }
 
@@ -169,12 +169,12 @@ void main() {
                  ivec3(place % block, place / block % block, place / (block * block)) - block / 2;
     if (any(lessThan(cell.voxel, ivec3(0))) || any(greaterThanEqual(cell.voxel, size))) return;
 
-        // Its face
 #if NESTED_GRIDS
     ivec3 stored = storedVoxel(cell.voxel, level);
 #else
     ivec3 stored = cell.voxel;
 #endif
+    // Its face
     uvec4 word = imageLoad(voxelBrickImage, stored >> 2);
     if (!brickHas(word.xy, bitOfVoxel(stored))) return;
     int recordIndex = int(voxelRecordIndex(word, bitOfVoxel(stored)));
@@ -183,10 +183,10 @@ void main() {
     for (uint i = 0u; i < lamp; ++i)
         if (isNear(cell, lights[i].position)) return;
 
-            // Light it
 #if GLASS
     veilNear = kVeilNearVoxels * cell.place.w * grid.voxelSize;
 #endif
+    // Light it
     uint face = faceIndex(record, direction);
     uint chain = texelFetch(voxelChains, recordIndex).x;
     float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));

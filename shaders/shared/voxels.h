@@ -53,6 +53,7 @@
 
 // In the first corner's fourth number, above the 24 bits of the instance.
 #define VOXEL_TRIANGLE_TWO_SIDED 0x1000000u
+#define FRAGMENT_TWO_SIDED 0x40000000u  // in the bounds of a fragment
 
 // Longest step over empty bricks. 2 costs rays 15 to 30 % more, 6 and 8 gain no more than they cost to find.
 #define OCTANT_REACH 4

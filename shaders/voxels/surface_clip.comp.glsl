@@ -168,7 +168,8 @@ void main() {
 
     // Store both.
     uvec3 c = uvec3(floor(clamp(polygon.center + 0.5, 0.0, 1.0) * 65535.0 + 0.5));
-    uint bounds = packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (t.twoSided ? 0x40000000u : 0u);
+    uint bounds =
+        packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (t.twoSided ? FRAGMENT_TWO_SIDED : 0u);
     uint areaBits = floatBitsToUint(kept ? area : 0.0);
 #if SURFACE_LOBES
     areaBits = kept ? ((areaBits + 0x100u) & ~0x1ffu) | s.lobe : 0u;

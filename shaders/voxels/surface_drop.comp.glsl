@@ -26,7 +26,7 @@ uniform usamplerBuffer pairs;
 uint storedDirections(uint base) {
     uint xy = fragments[base + 3u];
     vec3 n = vec3(unpackSnorm16(xy), unpackSnorm16(xy >> 16), unpackSnorm16(fragments[base + 4u]));
-    bool twoSided = (fragments[base + 2u] & 0x40000000u) != 0u;
+    bool twoSided = (fragments[base + 2u] & FRAGMENT_TWO_SIDED) != 0u;
     uint directions = facingDirections(n) | (twoSided ? facingDirections(-n) : 0u);
     return fragments[base + 1u] != 0u ? directions : 0u;
 }

@@ -41,7 +41,7 @@ Fragment readFragment(uint at, vec3 k) {
     uvec4 b = texelFetch(fragments, i + 1);
     vec3 n = vec3(unpackSnorm16(a.w), unpackSnorm16(a.w >> 16), unpackSnorm16(b.x));
     float facing = dot(n, k);
-    bool turned = facing < 0.0 && (a.z & 0x40000000u) != 0u;
+    bool turned = facing < 0.0 && (a.z & FRAGMENT_TWO_SIDED) != 0u;
     n = turned ? -n : n;
     facing = turned ? -facing : facing;
     bool counts = facing > VOXEL_FACING_THRESHOLD && at != 0u && a.y != 0u;
@@ -55,7 +55,7 @@ Fragment readFragment(uint at, vec3 k) {
     float whole = at != 0u ? uintBitsToFloat(areaBits) : 0.0;
     return Fragment(at != 0u ? a.x : 0u, counts ? whole : 0.0, whole, facing, n,
                     ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w, lobe,
-                    (a.z & 0x40000000u) != 0u, turned);
+                    (a.z & FRAGMENT_TWO_SIDED) != 0u, turned);
 }
 
 struct FaceSums {

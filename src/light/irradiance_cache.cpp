@@ -385,12 +385,12 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         const int rounds = updates();
         const LightBalance::Faces faces{inputs.voxels.surface(), inputs.faces, states_, stateTexels_};
         // Where things move, light is changed again before the second update.
-        if (settings.averages && rounds > 0) balance_.begin(device, faces);
+        const bool balances = settings.averages && rounds > 0;
+        if (balances) balance_.begin(device, faces);
         if (goesUncounted(settings)) {
             visitUncounted(device, inputs, settings);
             ++updatesMade_;
-            if (settings.averages && rounds > 0)
-                balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), 1.0f});
+            if (balances) balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), 1.0f});
             co_await commit(device, inputs, settings, i + 1 == passes);
             continue;
         }
@@ -405,7 +405,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
-        if (settings.averages && rounds > 0 && updates() > rounds)
+        if (balances && updates() > rounds)
             balance_.correct(device, faces,
                              {std::min(rounds, settings.longestWindow),
                               static_cast<float>(count) / static_cast<float>(order_.visited())});
