@@ -70,11 +70,10 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     // Where things were in the pictures so far is not known any more if they moved for one that was left.
     const bool lost = unfinished_ && moved_;
     unfinished_ = true;
-    followInstances(inputs.scene);
     // Surfaces may have been seen since the last picture without one.
     const base::Revision movedFrom = inputs.surfaces.movedFrom();
-    if (lost || (movedFrom && movedFrom != geometry_)) forget();
-    geometry_ = inputs.scene.geometryRevision();
+    if (lost || (movedFrom && movedFrom != instances_.at())) forget();
+    followInstances(inputs.scene);
 }
 
 void Indirect::forget() {
@@ -82,31 +81,14 @@ void Indirect::forget() {
         one->history = {.view = std::nullopt, .passes = 0, .number = one->history.number};
 }
 
-// Where each instance was in the frame before, for means that follow them. One that has come since stands still.
+// For means that follow what moves.
 void Indirect::followInstances(const scene::GpuScene& scene) {
-    const std::vector<gpu::Instance>& instances = scene.instances();
-    if (placed_.size() > instances.size()) forget();
-    moved_ = false;
-    std::vector<glm::mat4> oldFromWorld(instances.size(), glm::mat4(1));
-    const std::size_t known = std::min(placed_.size(), instances.size());
-    placed_.resize(instances.size());
-    entries_.resize(instances.size());
-    shapes_.resize(instances.size());
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const glm::mat4 place = instances[i].worldFromObject;
-        if (i < known && entries_[i] == scene.entryRevision(i) && placed_[i] != place) {
-            oldFromWorld[i] = placed_[i] * glm::inverse(place);
-            moved_ = true;
-        }
-        // Where its vertices were, pixels say (Surfaces::haveMotion), or its means stay where they match.
-        const bool bends =
-            i < known && entries_[i] == scene.entryRevision(i) && shapes_[i] != scene.shapeRevision(i);
-        moved_ = moved_ || bends;
-        shapes_[i] = scene.shapeRevision(i);
-        placed_[i] = place;
-        entries_[i] = scene.entryRevision(i);
-    }
-    if (moved_) motion_ = gl::Buffer(oldFromWorld, "instance motion");
+    const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
+    if (instances_.fewer()) forget();
+    // Where vertices were, pixels say (Surfaces::haveMotion), or their means stay where they match.
+    moved_ = std::any_of(changes.begin(), changes.end(),
+                         [](const scene::InstanceChange& one) { return one.moved || one.reshaped; });
+    if (moved_) motion_ = gl::Buffer(scene::oldFromWorld(scene, changes), "instance motion");
 }
 
 // Finished at once, or one more pass on top of what is known.

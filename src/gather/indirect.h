@@ -12,6 +12,7 @@
 #include "gather/carried_picture.h"
 #include "gather/picture_parts.h"
 #include "gather/pixel_rays.h"
+#include "scene/instance_history.h"
 
 namespace conelight::gather {
 
@@ -83,12 +84,8 @@ class Indirect {
     Gathered lamps_{PixelRays(RayPicture::Lamps), {}, {}};
     gpu::FrameConstants gatheredView_{};  // of what was found
 
-    // Where instances were, and where from they have come since.
-    std::vector<glm::mat4> placed_;
-    std::vector<base::Revision> entries_;  // which they were
-    std::vector<base::Revision> shapes_;
-    base::Revision geometry_;  // of the scene in the last picture
-    gl::Buffer motion_;
+    scene::InstanceHistory instances_;  // since the last picture
+    gl::Buffer motion_;                 // where from they have come since
     bool moved_ = false;
     bool unfinished_ = false;  // what was begun last was left
 

@@ -71,29 +71,29 @@ void TemporalPicture::resize(int width, int height) {
     frame_ = 0;
 }
 
+// Objects that come and go leave nothing of themselves behind.
+void TemporalPicture::followInstances(const scene::GpuScene& scene) {
+    const base::Revision at = instances_.at();
+    const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
+    const auto any = [&](auto&& is) { return std::any_of(changes.begin(), changes.end(), is); };
+    const bool moved = any([](const scene::InstanceChange& one) { return one.moved || one.reshaped; });
+    if ((at != instances_.at() && !moved) || instances_.fewer() ||
+        any([](const scene::InstanceChange& one) { return one.came; }))
+        frame_ = 0;
+    const bool before = std::exchange(moved_, moved && frame_ > 0);
+    if (moved_ || before || frame_ == 0) putMotion(scene, changes);
+}
+
 // Where each instance was in the frame before. A matrix of zeros: its shape has changed; nothing is known of where its
 // points were, unless the surfaces tell it.
-void TemporalPicture::followInstances(const scene::GpuScene& scene) {
-    const std::size_t count = scene.instances().size();
-    std::vector<glm::mat4> oldFromWorld(std::max<std::size_t>(count, 1), glm::mat4(1));
-    const bool known = worldFromObject_.size() == count && frame_ > 0;
-    const bool before = std::exchange(moved_, false);
-    worldFromObject_.resize(count);
-    shapes_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::mat4& place = scene.instances()[i].worldFromObject;
-        if (known && worldFromObject_[i] != place) {
-            oldFromWorld[i] = worldFromObject_[i] * glm::inverse(place);
-            moved_ = true;
-        }
-        if (known && shapes_[i] != scene.shapeRevision(i)) {
-            oldFromWorld[i] = glm::mat4(0);
-            moved_ = true;
-        }
-        worldFromObject_[i] = place;
-        shapes_[i] = scene.shapeRevision(i);
-    }
-    if (moved_ || before || !motion_ || !known) motion_ = gl::Buffer(oldFromWorld, "temporal: motion");
+void TemporalPicture::putMotion(const scene::GpuScene& scene,
+                                const std::vector<scene::InstanceChange>& changes) {
+    std::vector<glm::mat4> matrices =
+        scene::oldFromWorld(scene, moved_ ? changes : std::vector<scene::InstanceChange>());
+    if (moved_)
+        for (const scene::InstanceChange& change : changes)
+            if (change.reshaped) matrices[change.index] = glm::mat4(0);
+    motion_ = gl::Buffer(matrices, "temporal: motion");
 }
 
 void TemporalPicture::follow(const Shown& shown) {
@@ -106,12 +106,9 @@ void TemporalPicture::follow(const Shown& shown) {
     const From now{scene.identity(), scene.geometryRevision(), scene.lightRevision(), scene.skyRevision(),
                    scene.bakedRevision()};
     const Settings settings = withoutLook(shown.settings);
-    if (lost || !camera_ || from_.scene != now.scene || !(settings_ == settings) || isCut(shown.camera) ||
-        worldFromObject_.size() != scene.instances().size())
+    if (lost || !camera_ || from_.scene != now.scene || !(settings_ == settings) || isCut(shown.camera))
         frame_ = 0;
     followInstances(scene);
-    // Objects that come and go leave nothing of themselves behind.
-    if (from_.geometry != now.geometry && !moved_) frame_ = 0;
     still_ = !left && frame_ > 0 && from_ == now && camera_ == shown.camera;
     camera_ = shown.camera;
     geometryBefore_ = from_.geometry;

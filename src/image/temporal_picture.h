@@ -17,7 +17,7 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
-#include "scene/gpu_scene.h"
+#include "scene/instance_history.h"
 #include "view/camera.h"
 
 namespace conelight::view {
@@ -64,12 +64,12 @@ class TemporalPicture {
     };
     void resize(int width, int height);
     void followInstances(const scene::GpuScene& scene);
+    void putMotion(const scene::GpuScene& scene, const std::vector<scene::InstanceChange>& changes);
     bool isCut(const Camera& camera) const;
 
     gl::Texture view_, history_, places_[2];  // places_[0]: of history_
     gl::Buffer constants_, motion_;
-    std::vector<glm::mat4> worldFromObject_;
-    std::vector<base::Revision> shapes_;
+    scene::InstanceHistory instances_;
     int width_ = 0, height_ = 0;
     int frame_ = 0;
     int rested_ = 0;  // frames at rest

@@ -26,8 +26,6 @@ float partOfItsSize(const Aabb& box, const glm::mat4& was, const glm::mat4& is) 
     return part < 1 ? part : 1;  // a box without size, a matrix without inverse: all of it
 }
 
-}  // namespace
-
 // The farthest that a vertex of a mesh that bends has come, of the diagonal.
 float bentPart(const scene::GpuScene& scene, std::size_t index) {
     const glm::mat3 axes(scene.instances()[index].worldFromObject);
@@ -36,45 +34,45 @@ float bentPart(const scene::GpuScene& scene, std::size_t index) {
     return part < 1 ? part : 1;
 }
 
+// Of the size of an instance, [0,1]: by how much it moved and bent; 1 where that is not known.
+float partChanged(const scene::GpuScene& scene, const scene::InstanceChange& change) {
+    if (change.came || (change.reshaped && !change.keepsVertices)) return 1;
+    const float bend = change.reshaped ? bentPart(scene, change.index) : 0;
+    const float move = change.moved
+                           ? partOfItsSize(scene.instanceBounds(change.index), change.worldFromObject,
+                                           scene.instances()[change.index].worldFromObject)
+                           : 0;
+    return std::min(bend + move, 1.0f);
+}
+
+}  // namespace
+
 // Than that of the last look, for all faces.
 bool EditPlaces::isOther(const scene::GpuScene& scene) const {
     return scene_ != scene.identity() || lights_ != scene.lightRevision() || sky_ != scene.skyRevision();
 }
 
-// Of the size of instance `index`, [0,1]: by how much it moved and bent; 1 where that is not known, and of a new look.
-float EditPlaces::partChanged(const scene::GpuScene& scene, std::size_t index, const Entry& was,
-                              const Entry& is) {
-    const bool bent = was.shape != is.shape, moved = was.place != is.place;
-    const bool known = was.entry == is.entry && (!bent || was.shape == scene.shapeBefore(index));
-    if (!known || (!bent && !moved)) return 1;
-    const float bend = bent ? bentPart(scene, index) : 0;
-    const float move = moved ? partOfItsSize(is.bounds, was.place, is.place) : 0;
-    return std::min(bend + move, 1.0f);
-}
-
 EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
     bool local = !isOther(scene);
     std::vector<EditSphere> places;
-    if (local && geometry_ == scene.geometryRevision()) return places;
+    if (local && instances_.at() == scene.geometryRevision()) return places;
     scene_ = scene.identity();
-    geometry_ = scene.geometryRevision();
     lights_ = scene.lightRevision();
     sky_ = scene.skyRevision();
+    const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
+    auto change = changes.begin();
     Aabb all;  // of all places
     entries_.resize(scene.instances().size());
     for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const bool placed = change != changes.end() && change->index == i;
+        // One that neither moved nor bent looks other than it did, all of it.
+        const float part = placed ? partChanged(scene, *change++) : 1;
         Entry& entry = entries_[i];
         if (entry.revision == scene.instanceRevision(i)) continue;
-        const Entry now{scene.instanceRevision(i),
-                        scene.shapeRevision(i),
-                        scene.entryRevision(i),
-                        scene.instanceBounds(i),
-                        scene.instances()[i].worldFromObject,
-                        emits(scene, i)};
+        const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), emits(scene, i)};
         if (entry.emits || now.emits) local = false;
         Aabb box = entry.bounds;
         box.grow(now.bounds);
-        const float part = partChanged(scene, i, entry, now);
         entry = now;
         if (box.empty()) continue;
         all.grow(box);

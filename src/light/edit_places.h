@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/gpu_scene.h"
+#include "scene/instance_history.h"
 #include "shared/irradiance.h"
 
 namespace conelight::light {
@@ -41,15 +41,13 @@ class EditPlaces {
 
   private:
     struct Entry {
-        base::Revision revision, shape, entry;
+        base::Revision revision;
         Aabb bounds;
-        glm::mat4 place{1};
         bool emits = false;
     };
-    static float partChanged(const scene::GpuScene& scene, std::size_t index, const Entry& was,
-                             const Entry& is);
     bool isOther(const scene::GpuScene& scene) const;
-    base::Revision scene_, geometry_, lights_, sky_;
+    base::Revision scene_, lights_, sky_;
+    scene::InstanceHistory instances_;
     std::vector<Entry> entries_;
 };
 

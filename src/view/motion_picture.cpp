@@ -14,45 +14,31 @@ gl::ProgramDesc motionDesc() { return {{"view/motion.vert.glsl", "view/motion.fr
 
 bool MotionPicture::follow(const scene::GpuScene& scene) {
     drawn_ = false;
-    if (scene_ != scene.identity()) placed_.clear();
+    if (scene_ != scene.identity()) instances_.forget();
     scene_ = scene.identity();
-    from_ = placed_.empty() ? base::Revision{} : now_;
-    now_ = scene.geometryRevision();
-    if (from_ == now_) return false;
-    bool reshaped = false;
-    for (std::size_t i = 0; i < std::min(placed_.size(), scene.instances().size()); ++i)
-        reshaped = reshaped ||
-                   (placed_[i].entry == scene.entryRevision(i) && placed_[i].shape != scene.shapeRevision(i));
+    from_ = instances_.at();
+    const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
+    if (std::none_of(changes.begin(), changes.end(),
+                     [](const scene::InstanceChange& one) { return one.reshaped; }))
+        return false;
     motions_.clear();
-    if (reshaped) look(scene);
-    placed_.clear();
-    for (std::size_t i = 0; i < scene.instances().size(); ++i)
-        placed_.push_back(
-            {scene.instances()[i].worldFromObject, scene.shapeRevision(i), scene.entryRevision(i)});
-    return reshaped;
-}
-
-void MotionPicture::look(const scene::GpuScene& scene) {
-    moves_.clear();
-    for (std::size_t i = 0; i < scene.instances().size(); ++i) {
-        motions_.push_back(motionOf(scene, i));
-        moves_.push_back(motions_.back().firstVertex != MOTION_SAME_SHAPE ||
-                         motions_.back().worldFromObject != scene.instances()[i].worldFromObject);
+    for (const gpu::Instance& instance : scene.instances()) {
+        gpu::InstanceMotion& still = motions_.emplace_back();
+        still.worldFromObject = instance.worldFromObject;
+        still.firstVertex = MOTION_SAME_SHAPE;
     }
-}
-
-// One that has come since stands still.
-gpu::InstanceMotion MotionPicture::motionOf(const scene::GpuScene& scene, std::size_t i) const {
-    gpu::InstanceMotion motion{};
-    motion.worldFromObject = scene.instances()[i].worldFromObject;
-    motion.firstVertex = MOTION_SAME_SHAPE;
-    if (i >= placed_.size() || placed_[i].entry != scene.entryRevision(i)) return motion;
-    motion.worldFromObject = placed_[i].worldFromObject;
-    // Of several changes since then the last one's vertices are kept.
-    if (placed_[i].shape != scene.shapeRevision(i))
-        motion.firstVertex =
-            placed_[i].shape == scene.shapeBefore(i) ? scene.firstVertexBefore(i) : MOTION_UNKNOWN;
-    return motion;
+    moves_.assign(motions_.size(), 0);
+    for (const scene::InstanceChange& change : changes) {
+        if (change.came) continue;  // it stands still
+        gpu::InstanceMotion& motion = motions_[change.index];
+        motion.worldFromObject = change.worldFromObject;
+        // Of several changes since then the last one's vertices are kept.
+        if (change.reshaped)
+            motion.firstVertex =
+                change.keepsVertices ? scene.firstVertexBefore(change.index) : MOTION_UNKNOWN;
+        moves_[change.index] = 1;
+    }
+    return true;
 }
 
 void MotionPicture::draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,

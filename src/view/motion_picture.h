@@ -12,6 +12,7 @@
 #include "gl/draw.h"
 #include "gl/texture.h"
 #include "scene/gpu_scene.h"
+#include "scene/instance_history.h"
 #include "shared/gbuffer.h"
 #include "view/gbuffer.h"
 
@@ -35,16 +36,8 @@ class MotionPicture {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    // What is known of an instance.
-    struct Placed {
-        glm::mat4 worldFromObject;
-        base::Revision shape, entry;
-    };
-    void look(const scene::GpuScene& scene);
-    gpu::InstanceMotion motionOf(const scene::GpuScene& scene, std::size_t instance) const;
-
-    base::Revision scene_, from_, now_;
-    std::vector<Placed> placed_;
+    base::Revision scene_, from_;
+    scene::InstanceHistory instances_;
     std::vector<gpu::InstanceMotion> motions_;
     std::vector<char> moves_;  // of the instances
     gl::Buffer table_;

@@ -12,7 +12,7 @@ namespace {
 constexpr float kBoxMargin = 0.1f;
 constexpr float kBoxRounding = 1e-6f;
 // What tests of triangles and voxels let through, and rounding, of all that follows.
-constexpr double kRounding = 1.01;
+constexpr double kBoundsRounding = 1.01;
 
 double product(const glm::ivec3& v) { return static_cast<double>(v.x) * v.y * v.z; }
 
@@ -85,14 +85,14 @@ std::optional<SurfaceBounds> UpdateBounds::of(const scene::GpuScene& scene, std:
             const double area = scale * scale * sums.area, edges = scale * sums.longestEdges;
             const double voxels = product(range.end - range.low);
             const double fragments =
-                std::min(kRounding * (std::sqrt(12.0) * area + std::sqrt(48.0) * edges + 8 * sums.triangles),
+                std::min(kBoundsRounding * (std::sqrt(12.0) * area + std::sqrt(48.0) * edges + 8 * sums.triangles),
                          sums.triangles * voxels);
             all.fragments += fragments;
             all.voxels += std::min(fragments, voxels);
             all.faces += std::min((twoSided ? 6 : 3) * fragments, 6 * voxels);
             all.bricks += product((range.end + 3) / 4 - range.low / 4);
             // Squares of 8 x 8 columns, grown by one, in the same way; those of small triangles count as well.
-            all.tiles += kRounding * (area / 64 + 0.4 * edges + 5 * sums.triangles);
+            all.tiles += kBoundsRounding * (area / 64 + 0.4 * edges + 5 * sums.triangles);
         }
     }
     return all;
