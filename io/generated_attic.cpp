@@ -70,10 +70,13 @@ void addSlope(const Placer& at, int side, const AtticPaints& p) {
     const auto rim = [&](float x0, float y0, float x1, float y1) {
         slope.put(chamferedBox({{x0, y0, -0.12f}, {x1, y1, 0.06f}}, 0.004f), "skylight frame", p.paint);
     };
-    rim(hole[0][0] - 0.03f, hole[1][0] - 0.03f, hole[0][1] + 0.03f, hole[1][0]);
-    rim(hole[0][0] - 0.03f, hole[1][1], hole[0][1] + 0.03f, hole[1][1] + 0.03f);
-    rim(hole[0][0] - 0.03f, hole[1][0], hole[0][0], hole[1][1]);
-    rim(hole[0][1], hole[1][0], hole[0][1] + 0.03f, hole[1][1]);
+    const float inside = 0.002f;  // the boards' edges are not in its planes
+    const float x0 = hole[0][0] + inside, x1 = hole[0][1] - inside, y0 = hole[1][0] + inside,
+                y1 = hole[1][1] - inside;
+    rim(x0 - 0.03f, y0 - 0.03f, x1 + 0.03f, y0);
+    rim(x0 - 0.03f, y1, x1 + 0.03f, y1 + 0.03f);
+    rim(x0 - 0.03f, y0, x0, y1);
+    rim(x1, y0, x1 + 0.03f, y1);
     rim(-0.065f, hole[1][0], -0.035f, hole[1][1]);
 }
 

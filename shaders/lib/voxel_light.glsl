@@ -153,6 +153,39 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     return hit.face >= 0 ? radiance : skyRadiance(ray.direction, width);
 }
 
+#if NEAR_TRIANGLES
+// ---- Turns ----------------------------------------------------------------------------------------------
+
+// The face of a voxel holds all that looks its way: the side of a gap between boards, and the roof above them; the insides
+// of a double wall, and its outside. Where a near triangle does not lie in its face's plane, the face's light is that of
+// something else, and the path goes on instead (docs/theory/4b_rays.md, "Near the start").
+const float kNearLike = 0.8;    // cosine of the normals from which on they are alike
+const float kNearApart = 0.25;  // voxels from the plane up to which they are one
+const int kNearTurns = 3;
+
+vec3 cosineDirection(vec3 n, vec2 xi);
+
+bool turnsAt(Ray ray, VoxelHit hit, int turns) {
+    uvec4 r = texelFetch(voxelFaces, max(hit.face, 0));
+#if NESTED_GRIDS
+    vec4 voxel = voxelPlace(r.w);
+#else
+    vec4 voxel = vec4(unpackVoxel(r.w), 1.0);
+#endif
+    vec3 normal = octDecode(unpackSnorm2x16(r.x));
+    vec3 fromCenter = (ray.origin + hit.t * ray.direction - voxel.xyz) / voxel.w - 0.5;
+    bool alike = dot(hit.normal, normal) >= kNearLike &&
+                 abs(dot(fromCenter, normal) - unpackOffset(r.y)) <= kNearApart;
+    return turns < kNearTurns && ray.tMax > 0.0 && hit.face >= 0 && hit.near && !alike;
+}
+
+Ray turnedRay(Ray ray, VoxelHit hit, inout uint random) {
+    vec2 xi = vec2(randomNext(random), randomNext(random));
+    vec3 origin = rayOrigin(ray.origin + hit.t * ray.direction, hit.normal);
+    return Ray(origin, cosineDirection(hit.normal, xi), 1e9, hit.normal);
+}
+#endif
+
 // ---- Radiance along a path ------------------------------------------------------------------------------
 
 struct PathSettings {
@@ -184,11 +217,14 @@ struct PathState {
     vec3 throughput;
     float alpha2;  // variance of all lobes on the way
     bool fromNarrowLobe;
+    int turns;
 };
 
 struct PathVertex {
     vec3 radiance;  // outgoing, as if the surface were diffuse
     bool metal;     // the path is reflected here
+    bool turns;     // it goes on by the cosine; `next` holds what the surface sends beside
+    bool goesOn;    // either
     GlossyBounce next;
     vec3 lobeIrradiance;  // cached light that the lobe reflects as if diffuse, where the path ends here
 };
@@ -217,6 +253,7 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 ||
                    abs(hit.t - path.targetDistance) < 0.3 * faceEdge(max(hit.face, 0));
     vertex.metal = surface.reflects && arrived;
+    vertex.turns = vertex.goesOn = false;
     vec2 xi = vec2(randomNext(random), randomNext(random));
 #if EXECUTION_GPU
     if (!vertex.metal) {  // the path ends here, by its radiance alone
@@ -228,7 +265,45 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     vertex.next =
         sampleGlossyBounce(ray, hit, s, surface, GlossySample(widening, vertex.radiance, shadingNormal, xi));
     vertex.lobeIrradiance = vertex.next.specularShare * s.albedo * s.irradiance;
+#if NEAR_TRIANGLES
+    vertex.turns = !vertex.metal && path.targetDistance < 0.0 && turnsAt(ray, hit, state.turns);
+    if (vertex.turns) {
+        vec3 sent = max(vertex.radiance - s.albedo * s.irradiance, vec3(0.0));
+        vertex.next = GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 0.0);
+    }
+#endif
+    vertex.goesOn = vertex.metal || vertex.turns;
     return vertex;
+}
+#endif
+
+#if NEAR_TRIANGLES && !LOBES
+// As traceRadiance, of a path that only turns.
+vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit firstHit) {
+    vec3 first = vec3(0.0), later = vec3(0.0), throughput = vec3(1.0);
+    float most = 0.0;
+    float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
+    int turns = 0;
+    bool goesOn;
+    do {
+        VoxelHit hit = traceVoxels(ray);
+        FaceShading s = faceShading(max(hit.face, 0));
+        vec3 shadingNormal;
+        vec3 radiance = hitRadiance(ray, hit, path.skyWidth, widening, s, shadingNormal);
+        goesOn = path.targetDistance < 0.0 && turnsAt(ray, hit, turns);
+        vec3 sent = goesOn ? max(radiance - s.albedo * s.irradiance, vec3(0.0)) : radiance;
+        if (turns == 0) {
+            firstHit = hit;
+            first = sent;
+            most = path.fireflyClamp * brightness(radiance);
+        } else {
+            later += throughput * sent;
+        }
+        throughput *= s.albedo;
+        if (goesOn) ray = turnedRay(ray, hit, random);
+        ++turns;
+    } while (goesOn);
+    return first + later * min(1.0, most / max(brightness(later), 1e-12));
 }
 #endif
 
@@ -239,7 +314,9 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 // regularization, Kaplanyan and Dachsbacher 2013), and a firefly clamp bounds reflected radiance. Both biases
 // vanish as fireflyClamp, which grows with the number of samples, goes to infinity.
 vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit firstHit) {
-#if !LOBES
+#if !LOBES && NEAR_TRIANGLES
+    return turningRadiance(ray, path, random, firstHit);
+#elif !LOBES
     firstHit = traceVoxels(ray);
     FaceShading s = faceShading(max(firstHit.face, 0));
     vec3 shadingNormal;
@@ -249,7 +326,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
     vec3 firstRadiance = vec3(0.0);
     vec3 reflectedRadiance = vec3(0.0);
     float maxReflected = 0.0;
-    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, pathStartsNarrow);
+    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, pathStartsNarrow, 0);
     bool continues;
     do {
         // Intersect the voxels: here alone, as a kernel that has this twice is half as large again
@@ -263,14 +340,14 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         // Evaluate the surface and sample its lobe
         PathVertex vertex = pathVertex(ray, hit, path, state, random);
         GlossyBounce next = vertex.next;
-        continues = vertex.metal && state.bounce < path.maxBounces;
+        continues = vertex.turns || (vertex.metal && state.bounce < path.maxBounces);
 #if CACHED_PART
         cachedShare = !first ? shareOfFirst : vertex.metal ? 0.0 : cachedShare;
 #endif
 
         // Add the contribution; the last metal reflects the cached light as if diffuse
         if (!continues) next.radiance += vertex.lobeIrradiance;
-        vec3 contribution = state.throughput * (vertex.metal ? next.radiance : vertex.radiance);
+        vec3 contribution = state.throughput * (vertex.goesOn ? next.radiance : vertex.radiance);
         firstRadiance += first ? contribution : vec3(0.0);
         reflectedRadiance += first ? vec3(0.0) : contribution;
         maxReflected = first ? path.fireflyClamp * brightness(vertex.radiance) : maxReflected;
@@ -288,6 +365,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
 
         ray = next.ray;
         ++state.bounce;
+        state.turns += vertex.turns ? 1 : 0;
     } while (continues);
 
     // Clamp fireflies

@@ -84,9 +84,9 @@ std::optional<SurfaceBounds> UpdateBounds::of(const scene::GpuScene& scene, std:
             const double scale = stretch / static_cast<double>(one.voxelSize);
             const double area = scale * scale * sums.area, edges = scale * sums.longestEdges;
             const double voxels = product(range.end - range.low);
-            const double fragments =
-                std::min(kBoundsRounding * (std::sqrt(12.0) * area + std::sqrt(48.0) * edges + 8 * sums.triangles),
-                         sums.triangles * voxels);
+            const double fragments = std::min(
+                kBoundsRounding * (std::sqrt(12.0) * area + std::sqrt(48.0) * edges + 8 * sums.triangles),
+                sums.triangles * voxels);
             all.fragments += fragments;
             all.voxels += std::min(fragments, voxels);
             all.faces += std::min((twoSided ? 6 : 3) * fragments, 6 * voxels);

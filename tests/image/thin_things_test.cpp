@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Mode `traced` where things are thinner, or closer together, than a voxel: what shuts a lamp in, the two
 // sides of a bulb, folds of curtains, the gap below a board.
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "io/generated.h"
 #include "support/traced_rig.h"
 
@@ -81,6 +84,40 @@ TEST_F(ThinThings, GapsBelowAVoxelAreDark) {
     }());
     EXPECT_LT(indirectMean(scene), 0.75 * open);
     EXPECT_GT(indirectMean(scene, false), 0.9 * open);
+}
+
+// A slope of boards with a gap, a roof closely above them, a dark room below. The sides of the gap share faces with what
+// the sky lights, and are as dark as the room.
+TEST_F(ThinThings, GapsBetweenBoardsAreDark) {
+    Scene scene;
+    const glm::mat4 slope = glm::rotate(glm::mat4(1), glm::radians(44.0f), {0, 0, 1});
+    Material board = diffuseMaterial(glm::vec3(0.5f)), wall = diffuseMaterial(glm::vec3(0));
+    board.doubleSided = wall.doubleSided = true;
+    const auto addBoard = [&](float from, float to) {
+        Mesh box = boxMesh();
+        for (glm::vec3& p : box.positions)
+            p = glm::mix(glm::vec3(from, 0, -1), glm::vec3(to, 0.022f, 1), 0.5f * p + 0.5f);
+        addInstance(scene, box, board, slope);
+    };
+    addBoard(-1, -0.002f);
+    addBoard(0.002f, 1);
+    addInstance(scene, quadMesh({-1, 0.032f, 1}, {2, 0, 0}, {0, 0, -2}), board, slope);
+    const glm::vec3 low(-1, -0.6f, -1), wide(2, 0, 0), high(0, 0.63f, 0), deep(0, 0, 2);
+    const auto addWall = [&](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+        addInstance(scene, quadMesh(corner, u, v), wall, slope);
+    };
+    addWall(low, wide, deep);
+    addWall(low, wide, high);
+    addWall(low + deep, wide, high);
+    addWall(low, deep, high);
+    addWall(low + wide, deep, high);
+    scene.sky = glm::vec3(1);
+    Camera camera;
+    camera.eye = slope * glm::vec4(0.1f, -0.1f, 0, 1);
+    camera.target = slope * glm::vec4(-0.002f, 0.0015f, 0, 1);
+    camera.fovY = 0.006f;  // the side of the gap alone
+    scene.cameras = {camera};
+    EXPECT_LT(indirectMean(scene, true, 64), 0.01);
 }
 
 }  // namespace
