@@ -5,12 +5,14 @@
 // NEAR_TRIANGLES 1: rays meet triangles within a voxel of their start (lib/ray_query.glsl).
 // OCCLUSION 1: instead the open part of the hemisphere; surfaces count less the farther they are.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
+#define PIXEL_SHIFTS 1
 #ifndef OCCLUSION
 #error OCCLUSION must be 0 or 1
 #endif
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
+#include "lib/pixel_shift.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
 #include "lib/temporal.glsl"
@@ -20,11 +22,11 @@ layout(rgba32ui) writeonly uniform uimage2D result;
 
 #if OCCLUSION
 // Ambient openness: mean over cosine-sampled rays of their distance over the reach; 1 for a miss.
-float openness(vec3 origin, vec3 shadingNormal, vec3 geometricNormal, uint seed) {
+float openness(vec3 origin, vec3 shadingNormal, vec3 geometricNormal, vec2 shift) {
     float sum = 0.0;
     int i = 0;
     do {
-        vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
+        vec2 xi = fract(sequencePoint(kPixelSequence, pixelRays.pass * pixelRays.rays + uint(i)) + shift);
         Ray ray = Ray(origin, cosineDirection(shadingNormal, xi), pixelRays.reach, geometricNormal);
         VoxelHit hit = traceVoxels(ray);
         float open = hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
@@ -37,7 +39,11 @@ float openness(vec3 origin, vec3 shadingNormal, vec3 geometricNormal, uint seed)
 #endif
 
 void main() {
-    ivec2 pixel = INVOCATION_PIXEL + ivec2(pixelRays.lowestX, pixelRays.lowestY);
+#ifdef RECORD_STEPS
+    ivec2 pixel = INVOCATION_PIXEL;
+#else
+    ivec2 pixel = interleavedPixel() + ivec2(pixelRays.lowestX, pixelRays.lowestY);
+#endif
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     bool diffuse = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
@@ -51,15 +57,16 @@ void main() {
 #endif
     vec3 origin = diffuse ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : outside;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
+    uint shift = pixelShift(uvec2(pixel), seed);
 #if OCCLUSION
-    vec3 value = vec3(openness(origin, normal, s.geometricNormal, seed));
+    vec3 value = vec3(openness(origin, normal, s.geometricNormal, unpackShift(shift).xy));
 #else
     SurfacePoint point = SurfacePoint(origin, diffuse ? s.geometricNormal : away, normal);
     EstimatorSettings settings = EstimatorSettings(int(pixelRays.rays), int(pixelRays.rays),
                                                    int(pixelRays.reflections), pixelRays.fireflyClamp);
     float backFaceShare;
-    vec3 value =
-        estimateIrradiance(point, settings, SequenceState(seed, pixelRays.pass, vec3(0.0)), backFaceShare);
+    SequenceState sequence = SequenceState(kPixelSequence, pixelRays.pass, shift, seed);
+    vec3 value = estimateIrradiance(point, settings, sequence, backFaceShare);
 #endif
 #if COUNT_LOOKUPS
     addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, diffuse);

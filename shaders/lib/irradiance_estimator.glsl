@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The irradiance estimator that the cache and the pixels share: SurfacePoint -> estimateIrradiance, irradiance / pi by
 // multiple importance sampling. Part of lib/voxel_light.glsl. Method: docs/theory/4c_estimator.md.
+// PIXEL_SHIFTS 1: shifts are those of pixels, packed (lib/pixel_shift.glsl).
+#ifndef PIXEL_SHIFTS
+#define PIXEL_SHIFTS 0
+#endif
 #include "lib/cached_part.glsl"
 #include "lib/dot.glsl"
 #include "lib/light_sample.glsl"
+#if PIXEL_SHIFTS
+#include "lib/pixel_shift.glsl"
+#endif
 #if ENVIRONMENT
 #include "lib/environment_sample.glsl"
 #endif
@@ -51,8 +58,21 @@ struct SurfacePoint {
 struct SequenceState {
     uint seed;
     uint index;
+#if PIXEL_SHIFTS
+    uint shift;  // of lib/pixel_shift.glsl
+#else
     vec3 shift;  // in [0,1)^3
+#endif
+    uint ofBounces;  // seed of the random numbers after the first hit
 };
+
+vec3 shiftOf(SequenceState sequence) {
+#if PIXEL_SHIFTS
+    return unpackShift(sequence.shift);
+#else
+    return sequence.shift;
+#endif
+}
 
 struct EstimatorSettings {
     int cosineSamples;
@@ -88,7 +108,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 
     // Sample a point on a light face
     uint lightIndex = sequence.index * uint(settings.lightSamples) + uint(max(i - settings.cosineSamples, 0));
-    vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + sequence.shift.zxy);
+    vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + shiftOf(sequence).zxy);
 #if ENVIRONMENT
     float skyShare = skySampleShare(inverseFlux);
     bool towardsSky = lightSampled && xiLight.x < skyShare;
@@ -104,7 +124,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 
     // Sample the cosine lobe
     uint cosineIndex = sequence.index * uint(settings.cosineSamples) + uint(i);
-    vec2 xi = fract(sequencePoint(sequence.seed, cosineIndex) + sequence.shift.xy);
+    vec2 xi = fract(sequencePoint(sequence.seed, cosineIndex) + shiftOf(sequence).xy);
     vec3 direction =
         lightSampled ? toLight / max(lightDistance, 1e-6) : cosineDirection(point.shadingNormal, xi);
 
@@ -155,7 +175,7 @@ float lightPdf(Ray ray, VoxelHit hit, float inverseFlux, float skyPdf) {
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
     float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
-    uint random = randomHash(sequence.seed) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
+    uint random = randomHash(sequence.ofBounces) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
     BEGIN_CACHED();
     float backFaces = 0.0;

@@ -44,7 +44,8 @@ void main() {
     EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
                                                    int(cache.reflections), cache.fireflyClamp);
     float backFaceShare;
-    vec3 found = estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
+    SequenceState sequence = SequenceState(seed, cache.update, shift, seed);
+    vec3 found = estimateIrradiance(point, settings, sequence, backFaceShare);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;

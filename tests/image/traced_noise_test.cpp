@@ -76,6 +76,34 @@ TEST_F(TracedNoiseTest, MoreFramesLessNoise) {
     EXPECT_LT(many, 0.2);
 }
 
+// Pixels at the places of a square of 8x8 have evenly spread parts of one sequence. The mean of a square of a wall in even
+// light, one pass: independent pixels would be off by an eighth of what one pixel is, with 64 squares give or take a tenth.
+TEST_F(TracedNoiseTest, NeighboursComplementEachOther) {
+    Scene scene = io::generateScene("cornell-point");
+    Camera camera = scene.cameras.at(0);
+    camera.fovY = 0.2f;  // the back wall alone
+    Renderer renderer;
+    renderer.setScene(scene);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    settings.traced.filterLevels = 0;
+    constexpr int kSize = 64;
+    const auto picture = [&](int passes) {
+        settings.traced.passes = passes;
+        renderer.render(camera, kSize, kSize, settings);
+        return renderer.readImage();
+    };
+    const Image one = picture(1), truth = picture(256);
+    const auto squares = [](const Image& image) {
+        Image means{kSize / 8, kSize / 8, std::vector<glm::vec4>(kSize * kSize / 64, glm::vec4(0))};
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x)
+                means.pixels[static_cast<std::size_t>(y / 8 * (kSize / 8) + x / 8)] +=
+                    image.pixels[static_cast<std::size_t>(y * kSize + x)] / 64.0f;
+        return means;
+    };
+    EXPECT_LT(relRmse(squares(one), squares(truth)), 0.75 / 8 * relRmse(one, truth));
+}
+
 // What the cache shows after few updates is shared between neighbours of one plane: 13.5 % off without that.
 // After many it is each face's own.
 TEST_F(TracedNoiseTest, FewUpdatesOfTheCacheShowLittleNoise) {
