@@ -49,13 +49,18 @@ void main() {
     wanted = wanted && s.roughness <= pixelRays.specularLimit;
 #endif
     vec4 carried = valueSoFar(min(pixel, size - 1), s).value;
-    vec4 near = likestNear(pixel, s);
-    bool known = carried.a > 0.0;
-    vec3 cached = vec3(0.0);
+    vec3 value = carried.rgb;
+    // A loop, as software drivers take both ways of a branch, but leave loops out that no pixel of a group needs.
+    bool lost = wanted && carried.a <= 0.0;
+    while (lost) {
+        vec4 near = likestNear(pixel, s);
+        vec3 cached = vec3(0.0);
 #if CACHED
-    cached = cachedIrradiance(gridFromWorld(s.position), s.normal, wanted && !known && near.a == 0.0).rgb;
+        cached = cachedIrradiance(gridFromWorld(s.position), s.normal, lost && near.a == 0.0).rgb;
 #endif
-    vec3 value = known ? carried.rgb : (near.a > 0.0 ? near.rgb : cached);
+        value = near.a > 0.0 ? near.rgb : cached;
+        lost = false;
+    }
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(result, pixel,
                packPixelHistory(PixelHistory(value, 0.0, 1.0, wanted ? s.depth : 0.0, s.normal, s.instance)));
