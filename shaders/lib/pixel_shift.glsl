@@ -3,7 +3,7 @@
 // 8x8. docs/theory/4e_pixels.md, "Directions".
 #include "lib/random.glsl"
 
-// Seed of the one sequence that all pixels have a part of: of 1, 2, 3 and 77 the one with least noise in a furnace.
+// Seed of the one sequence that all pixels have a part of: of 1, 3, 11 and 77 the one with least noise in a furnace.
 const uint kPixelSequence = 1u;
 
 // A pixel's shift of that sequence as a word, which costs rays one register. Any 2x2, 4x4 and 8x8 pixels, wherever they

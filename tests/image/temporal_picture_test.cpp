@@ -118,6 +118,24 @@ TEST_F(TemporalPictureTest, TheFirstFrameAndOneAfterACutAreWithoutAPast) {
     EXPECT_EQ(drawn(renderer, camera, on).pixels, still.pixels) << "after another scene";
 }
 
+// One goes, another comes in its place, and a third moves: nobody takes the new one for the old one that moved.
+TEST_F(TemporalPictureTest, AnObjectInThePlaceOfAnotherHasNoPast) {
+    const Scene scene = spokes();
+    const Camera& camera = scene.cameras.front();
+    Renderer renderer;
+    renderer.setScene(scene);
+    const Settings off = settingsOf(Mode::Phong, false), on = settingsOf(Mode::Phong, true);
+    for (int i = 0; i < 3; ++i) drawn(renderer, camera, on);
+    Instance next = scene.instances[3], moved = scene.instances[5];
+    renderer.removeInstance(3);
+    next.worldFromObject = glm::translate(glm::mat4(1), {0.2f, 0, 0}) * next.worldFromObject;
+    ASSERT_EQ(renderer.addInstance(next), 3u);
+    moved.worldFromObject = glm::translate(glm::mat4(1), {0, 0.2f, 0}) * moved.worldFromObject;
+    renderer.setInstance(5, moved);
+    const Image picture = drawn(renderer, camera, on);
+    EXPECT_EQ(picture.pixels, drawn(renderer, camera, off).pixels);
+}
+
 // What moves is in focus; little of it is left in a view that has rested for some frames.
 TEST_F(TemporalPictureTest, ALensFocusesSoonAfterTheCameraStops) {
     const Scene scene = spokes();
