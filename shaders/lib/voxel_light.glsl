@@ -278,9 +278,9 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 #endif
 
 #if NEAR_TRIANGLES && !LOBES
-// As traceRadiance, of a path that only turns.
+// As traceRadiance, of a path that only turns. What each later hit adds is clamped.
 vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit firstHit) {
-    vec3 first = vec3(0.0), later = vec3(0.0), throughput = vec3(1.0);
+    vec3 sum = vec3(0.0), throughput = vec3(1.0);
     float most = 0.0;
     float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
     int turns = 0;
@@ -291,19 +291,18 @@ vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit
         vec3 shadingNormal;
         vec3 radiance = hitRadiance(ray, hit, path.skyWidth, widening, s, shadingNormal);
         goesOn = path.targetDistance < 0.0 && turnsAt(ray, hit, turns);
-        vec3 sent = goesOn ? max(radiance - s.albedo * s.irradiance, vec3(0.0)) : radiance;
         if (turns == 0) {
             firstHit = hit;
-            first = sent;
             most = path.fireflyClamp * brightness(radiance);
-        } else {
-            later += throughput * sent;
         }
+        if (goesOn) radiance = max(radiance - s.albedo * s.irradiance, vec3(0.0));
+        radiance *= throughput;
+        sum += radiance * (turns == 0 ? 1.0 : min(1.0, most / max(brightness(radiance), 1e-12)));
         throughput *= s.albedo;
         if (goesOn) ray = turnedRay(ray, hit, random);
         ++turns;
     } while (goesOn);
-    return first + later * min(1.0, most / max(brightness(later), 1e-12));
+    return sum;
 }
 #endif
 
