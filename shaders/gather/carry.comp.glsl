@@ -56,7 +56,7 @@ void main() {
         vec4 near = likestNear(pixel, s);
         vec3 cached = vec3(0.0);
 #if CACHED
-        cached = cachedIrradiance(gridFromWorld(s.position), s.normal, lost && near.a == 0.0).rgb;
+        cached = cachedIrradiance(gridFromWorld(s.position), s.normal, near.a == 0.0).rgb;
 #endif
         value = near.a > 0.0 ? near.rgb : cached;
         lost = false;

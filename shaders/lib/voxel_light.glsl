@@ -179,6 +179,11 @@ bool turnsAt(Ray ray, VoxelHit hit, int turns) {
     return turns < kNearTurns && ray.tMax > 0.0 && hit.face >= 0 && hit.near && !alike;
 }
 
+// Of what a face shows, what it sends but for cached light, which the path looks for itself.
+vec3 withoutCached(vec3 radiance, FaceShading s) {
+    return max(radiance - s.albedo * s.irradiance, vec3(0.0));
+}
+
 Ray turnedRay(Ray ray, VoxelHit hit, inout uint random) {
     vec2 xi = vec2(randomNext(random), randomNext(random));
     vec3 origin = rayOrigin(ray.origin + hit.t * ray.direction, hit.normal);
@@ -268,7 +273,7 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 #if NEAR_TRIANGLES
     vertex.turns = !vertex.metal && path.targetDistance < 0.0 && turnsAt(ray, hit, state.turns);
     if (vertex.turns) {
-        vec3 sent = max(vertex.radiance - s.albedo * s.irradiance, vec3(0.0));
+        vec3 sent = withoutCached(vertex.radiance, s);
         vertex.next = GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 0.0);
     }
 #endif
@@ -295,7 +300,7 @@ vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit
             firstHit = hit;
             most = path.fireflyClamp * brightness(radiance);
         }
-        if (goesOn) radiance = max(radiance - s.albedo * s.irradiance, vec3(0.0));
+        if (goesOn) radiance = withoutCached(radiance, s);
         radiance *= throughput;
         sum += radiance * (turns == 0 ? 1.0 : min(1.0, most / max(brightness(radiance), 1e-12)));
         throughput *= s.albedo;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mode `traced` where things are thinner, or closer together, than a voxel: what shuts a lamp in, the two
 // sides of a bulb, folds of curtains, the gap below a board.
-#include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "io/generated.h"
