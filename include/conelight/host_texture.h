@@ -14,7 +14,8 @@ namespace conelight {
 // base level, swizzle, sRGB decoding. So colours lie in an sRGB format, or are linear; what is beyond [0, 1] is cut.
 // Texels of the base level are read during the call, after what the host's commands have written: a copy of 256 x 256
 // is what light sees. Pictures and shadow maps read the texture itself, and its mipmaps where it has all of them. So it
-// stays alive until another takes its place or the scene is gone. After its texels have changed, set it again.
+// stays alive until another takes its place or the scene is gone. After its texels have changed, set it again. As a normal
+// map it keeps the roughness of its material: how far normals spread within a pixel is told of a Texture alone.
 struct HostTexture {
     std::string name;
     std::uint32_t texture = 0;  // GL name

@@ -58,13 +58,10 @@ vec4 materialTexel(sampler2D map, uint material, int use) {
 #endif
 
 #if TEXTURES >= 2
-// Normals of a map have lengths of 1 within this: it has 8 bits.
-const float kNormalRounding = 4e-3;
-
 // How far the length of the mean of normals is below 1, where a footprint covers several texels.
 float normalSpread(vec3 mean, float scale, TexelFootprint footprint) {
     float several = clamp(footprint.longer - 1.0, 0.0, 1.0);
-    return clamp(several * scale * scale * (1.0 - kNormalRounding - length(mean)), 0.0, 0.9);
+    return clamp(several * scale * scale * (1.0 - UNIT_NORMAL_ROUNDING - length(mean)), 0.0, 0.9);
 }
 
 // Perceptual roughness with that of the spread of normals. The spread is that of a von Mises-Fisher lobe (Banerjee and
@@ -146,7 +143,8 @@ void main() {
         vec3 b = cross(n, t) * (interpolatedTangent.w < 0.0 ? -1.0 : 1.0);
         float scale = materials[material].normalScale;
         n = normalize(t * (texel.x * scale) + b * (texel.y * scale) + n * max(texel.z, 1e-3));
-        spread = normalSpread(texel, scale, footprint);
+        bool unit = (materials[material].flags & MATERIAL_UNIT_NORMALS) != 0u;
+        spread = unit ? normalSpread(texel, scale, footprint) : 0.0;
         if (spread > 0.0) roughness = spreadRoughness(roughness, spread);
     }
 #endif

@@ -8,6 +8,7 @@
 #include "gl/pass.h"
 #include "gl/work.h"
 #include "math/sheen.h"
+#include "scene/normal_map.h"
 #include "shared/voxels.h"
 
 namespace conelight::scene {
@@ -217,7 +218,7 @@ MaterialTextures texturesOf(const Material& material) {
              material.sheenRoughnessTexture.texture}};
 }
 
-SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
+SceneTextures::SceneTextures(const std::vector<Texture>& sources, const std::vector<bool>& normals) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
@@ -232,7 +233,7 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
     drawn_.resize(sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i) {
         if (gl::Work* const work = gl::Work::current()) work->tell("textures", i + 1, sources.size());
-        set(i, sources[i]);
+        set(i, sources[i], normals[i]);
     }
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
 }
@@ -251,16 +252,21 @@ int SceneTextures::addLayer() {
     return layer;
 }
 
-void SceneTextures::add(const Texture& source) { set(static_cast<std::size_t>(addLayer()), source); }
+void SceneTextures::add(const Texture& source) { set(static_cast<std::size_t>(addLayer()), source, false); }
 
 void SceneTextures::add(const gl::Device& device, const HostTexture& source) {
     set(device, static_cast<std::size_t>(addLayer()), source);
 }
 
 // Those of one size and format take the new texels where they lie.
-void SceneTextures::set(std::size_t index, const Texture& source) {
-    putForDrawing(index, source);
+void SceneTextures::set(std::size_t index, const Texture& source, bool normals) {
+    putForDrawing(index, source, normals);
     uploadSurface(source, static_cast<int>(index));
+}
+
+void SceneTextures::setUse(std::size_t index, const Texture& source, bool normals) {
+    const DrawTexture& drawn = drawn_[index];
+    if (drawn.foreign == 0 && drawn.normals != normals) putForDrawing(index, source, normals);
 }
 
 void SceneTextures::set(const gl::Device& device, std::size_t index, const HostTexture& source) {
@@ -270,7 +276,7 @@ void SceneTextures::set(const gl::Device& device, std::size_t index, const HostT
     hostTextures_.copy(device, source, surfaceArray_, static_cast<int>(index));
 }
 
-void SceneTextures::putForDrawing(std::size_t index, const Texture& texture) {
+void SceneTextures::putForDrawing(std::size_t index, const Texture& texture, bool normals) {
     const std::string label = "texture " + texture.name;
     const auto format = static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8);
     drawn_[index].foreign = 0;
@@ -279,8 +285,10 @@ void SceneTextures::putForDrawing(std::size_t index, const Texture& texture) {
         t = {};
         t = gl::Texture({GL_TEXTURE_2D, format, texture.width, texture.height, 1, 0}, label);
     }
-    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE,
+             normals ? unitNormals(texture.rgba).data() : texture.rgba.data());
     t.generateMipmaps();
+    drawn_[index].normals = normals;
     drawn_[index].sampler = samplerOf({texture.wrapU, texture.wrapV, texture.filter, true}, label);
 }
 

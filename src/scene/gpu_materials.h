@@ -38,9 +38,13 @@ using MaterialUnits = std::array<int, kMaterialTextureCount>;
 class SceneTextures {
   public:
     SceneTextures() = default;
-    explicit SceneTextures(const std::vector<Texture>& sources);
+    // `normals`: of each, whether it is a normal map, which is drawn with unit normals (scene/normal_map.h).
+    SceneTextures(const std::vector<Texture>& sources, const std::vector<bool>& normals);
     void add(const Texture& source);  // behind the others
-    void set(std::size_t index, const Texture& source);
+    void set(std::size_t index, const Texture& source, bool normals);
+    // The same texels for another use. Those of the host are left as they are.
+    void setUse(std::size_t index, const Texture& source, bool normals);
+    bool hasUnitNormals(std::size_t index) const { return drawn_[index].normals; }
     // Of the host's: they are drawn with where they lie.
     void add(const gl::Device& device, const HostTexture& source);
     void set(const gl::Device& device, std::size_t index, const HostTexture& source);
@@ -53,7 +57,7 @@ class SceneTextures {
 
   private:
     int addLayer();
-    void putForDrawing(std::size_t index, const Texture& source);
+    void putForDrawing(std::size_t index, const Texture& source, bool normals);
     void uploadSurface(const Texture& source, int layer);
 
     // Of one, for drawing: a texture of ours, or the name of the host's.
@@ -61,6 +65,7 @@ class SceneTextures {
         gl::Texture own;
         gl::Name foreign = 0;
         gl::Sampler sampler;
+        bool normals = false;  // of unit length
     };
     std::vector<DrawTexture> drawn_;
     gl::Texture white_;

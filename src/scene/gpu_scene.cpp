@@ -7,6 +7,7 @@
 
 #include "gl/gl.h"
 #include "scene/gpu_vertices.h"
+#include "scene/normal_map.h"
 #include "scene/packed_mesh.h"
 
 namespace conelight::scene {
@@ -29,7 +30,9 @@ GpuScene::GpuScene(const Scene& source) : source_(source) {
     uploadInstances();
     makeVertexArray();
     uploadMaterials();
-    textures_ = SceneTextures(source_.textures);
+    textures_ =
+        SceneTextures(source_.textures, normalMaps(source_.materials, source_.textures.size()));
+    updateNormalMaps();
     geometryRevision_ = lightRevision_ = skyRevision_ = bakedRevision_ = identity_;
     firstBounds_ = bounds();
     firstGridBounds_ = boundsForGrid();
@@ -224,6 +227,7 @@ void GpuScene::setMaterial(std::size_t index, const Material& material) {
     materials_[index] = packedMaterial(material, source_.textures);
     materialTextures_[index] = texturesOf(material);
     materialBuffer_.update(index * sizeof(gpu::Material), &materials_[index], sizeof(gpu::Material));
+    updateNormalMaps();
     geometryRevision_ = base::Revision::next();
     for (std::size_t i = 0; i < instances_.size(); ++i)
         if (instances_[i].material == index) {
@@ -236,7 +240,7 @@ void GpuScene::setMaterial(std::size_t index, const Material& material) {
 }
 
 void GpuScene::setTexture(std::size_t index, const Texture& texture) {
-    textures_.set(index, texture);
+    textures_.set(index, texture, textures_.hasUnitNormals(index));
     source_.textures[index] = texture;
     // Layers count with the mean of their textures.
     for (std::size_t i = 0; i < source_.materials.size(); ++i)
@@ -244,13 +248,30 @@ void GpuScene::setTexture(std::size_t index, const Texture& texture) {
             materials_[i] = packedMaterial(source_.materials[i], source_.textures);
             materialBuffer_.update(i * sizeof(gpu::Material), &materials_[i], sizeof(gpu::Material));
         }
+    updateNormalMaps();
     touchUsersOf(index);
 }
 
 void GpuScene::setTexture(const gl::Device& device, std::size_t index, const HostTexture& texture) {
     textures_.set(device, index, texture);
     source_.textures[index] = whiteTexel(texture.name);
+    updateNormalMaps();
     touchUsersOf(index);
+}
+
+// Which textures are normal maps, and which materials have one of unit normals.
+void GpuScene::updateNormalMaps() {
+    const std::vector<bool> normals = normalMaps(source_.materials, source_.textures.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) textures_.setUse(i, source_.textures[i], normals[i]);
+    for (std::size_t i = 0; i < source_.materials.size(); ++i) {
+        const TextureRef& map = source_.materials[i].normalTexture;
+        const bool unit = map.used() && textures_.hasUnitNormals(static_cast<std::size_t>(map.texture));
+        const std::uint32_t flags =
+            (materials_[i].flags & ~MATERIAL_UNIT_NORMALS) | (unit ? MATERIAL_UNIT_NORMALS : 0u);
+        if (flags == materials_[i].flags) continue;
+        materials_[i].flags = flags;
+        materialBuffer_.update(i * sizeof(gpu::Material), &materials_[i], sizeof(gpu::Material));
+    }
 }
 
 void GpuScene::touchUsersOf(std::size_t texture) {

@@ -174,6 +174,7 @@ class GpuScene {
     std::size_t placeForMesh(std::uint32_t vertices, std::uint32_t indices);
     void convert(const gl::Device& device, std::size_t index, const HostMesh& mesh);
     void touchUsersOf(std::size_t texture);
+    void updateNormalMaps();
     std::size_t placeForVerticesBefore(std::size_t index);
     void reshape(std::size_t index);
     void putInstance(std::size_t index, const Instance& instance);

@@ -154,6 +154,7 @@ std::size_t GpuScene::addMaterial(const Material& material) {
                              texturesOf(material));
     put(materialBuffer_, index * sizeof(gpu::Material), &materials_[index], 2 * sizeof(gpu::Material),
         "scene materials");
+    updateNormalMaps();
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (instances_[i].material != index) continue;
         ++instances_[i].material;

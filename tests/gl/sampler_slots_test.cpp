@@ -49,7 +49,8 @@ struct SamplerSlotsTest : GlTest {
     // The textures of a scene that has some, or none.
     void surface(bool some) {
         const Texture white{.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
-        const scene::SceneTextures textures(some ? std::vector<Texture>{white} : std::vector<Texture>{});
+        const scene::SceneTextures textures(some ? std::vector<Texture>{white} : std::vector<Texture>{},
+                                             {false});
         const gl::Buffer out(4, "out");
         gl::Inputs inputs;
         textures.declare(inputs);

@@ -81,5 +81,52 @@ TEST_F(TextureFilterTest, NormalsFinerThanAPixelDarken) {
     EXPECT_NEAR(meanOf(direct(scene)) / truth, 1, 0.06);
 }
 
+// Normals that all point up, but are 0.8 to 3 % too short, as JPEG leaves them: the sun's highlight is as narrow as with
+// unit ones.
+TEST_F(TextureFilterTest, ShortNormalsAreNoSpread) {
+    Material steel = diffuseMaterial(glm::vec3(0.9f));
+    steel.metallic = 1;
+    steel.roughness = 0.1f;
+    const auto lit = [&](const std::array<glm::u8vec3, 2>& normals) {
+        Scene scene = floor(steel, stripes("normals", false, normals, 8), 16);
+        scene.lights[0].direction = glm::normalize(glm::vec3(0, -0.14f, 1));
+        return scene;
+    };
+    steel.normalTexture.texture = 0;
+    const Image unit = direct(lit({glm::u8vec3(128, 128, 255), glm::u8vec3(128, 128, 255)}));
+    const Image shorter = direct(lit({glm::u8vec3(128, 128, 254), glm::u8vec3(128, 128, 251)}));
+    EXPECT_GT(meanOf(unit), 1e-3);
+    EXPECT_LT(relRmse(shorter, unit), 0.01);
+}
+
+// Textures and materials that come later, in any order, are as those of a scene that had them from the start.
+TEST_F(TextureFilterTest, ATextureBecomesANormalMap) {
+    Material steel = diffuseMaterial(glm::vec3(0.9f));
+    steel.roughness = 0.3f;
+    Material mapped = steel;
+    mapped.normalTexture.texture = 0;
+    const Texture shorter =
+        stripes("normals", false, {glm::u8vec3(128, 128, 254), glm::u8vec3(140, 128, 240)}, 8);
+    const Texture plain = stripes("plain", false, {glm::u8vec3(128, 128, 255), glm::u8vec3(200, 90, 30)}, 8);
+    const Settings settings = tracedSettings(Quality::Draft, Component::Direct);
+    const auto pixels = [&](Renderer& renderer, const Scene& scene) {
+        renderer.render(scene.cameras[0], 24, 24, settings);
+        return renderer.readImage().pixels;
+    };
+    Renderer fresh, edited;
+    const Scene whole = floor(mapped, shorter, 16);
+    fresh.setScene(whole);
+    edited.setScene(floor(steel, plain, 16));
+    edited.setMaterial(0, mapped);
+    edited.setTexture(0, shorter);
+    EXPECT_EQ(pixels(edited, whole), pixels(fresh, whole));
+    // As a colour it is itself again.
+    Material colored = steel;
+    colored.baseColorTexture.texture = 0;
+    edited.setMaterial(0, colored);
+    fresh.setScene(floor(colored, shorter, 16));
+    EXPECT_EQ(pixels(edited, whole), pixels(fresh, whole));
+}
+
 }  // namespace
 }  // namespace conelight::test
