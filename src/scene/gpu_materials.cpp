@@ -285,8 +285,7 @@ void SceneTextures::putForDrawing(std::size_t index, const Texture& texture, boo
         t = {};
         t = gl::Texture({GL_TEXTURE_2D, format, texture.width, texture.height, 1, 0}, label);
     }
-    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE,
-             normals ? unitNormals(texture.rgba).data() : texture.rgba.data());
+    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, normals ? unitNormals(texture.rgba).data() : texture.rgba.data());
     t.generateMipmaps();
     drawn_[index].normals = normals;
     drawn_[index].sampler = samplerOf({texture.wrapU, texture.wrapV, texture.filter, true}, label);

@@ -30,8 +30,7 @@ GpuScene::GpuScene(const Scene& source) : source_(source) {
     uploadInstances();
     makeVertexArray();
     uploadMaterials();
-    textures_ =
-        SceneTextures(source_.textures, normalMaps(source_.materials, source_.textures.size()));
+    textures_ = SceneTextures(source_.textures, normalMaps(source_.materials, source_.textures.size()));
     updateNormalMaps();
     geometryRevision_ = lightRevision_ = skyRevision_ = bakedRevision_ = identity_;
     firstBounds_ = bounds();

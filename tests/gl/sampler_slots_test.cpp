@@ -50,7 +50,7 @@ struct SamplerSlotsTest : GlTest {
     void surface(bool some) {
         const Texture white{.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
         const scene::SceneTextures textures(some ? std::vector<Texture>{white} : std::vector<Texture>{},
-                                             {false});
+                                            {false});
         const gl::Buffer out(4, "out");
         gl::Inputs inputs;
         textures.declare(inputs);
