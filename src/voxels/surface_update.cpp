@@ -101,8 +101,7 @@ void SurfaceVoxels::Impl::uploadEdits(const scene::GpuScene& scene, const Edits&
     fill(stale, edits.stale, "voxelizer stale instances");
     fill(runs, edits.runs, "voxelizer changed instances");
     fill(editedBricks, edits.editedBricks, "voxelizer edited bricks");
-    if (!freeList || freeList.bytes() < std::size_t{4} * capacity.fragments)
-        freeList = gl::Buffer(std::size_t{4} * capacity.fragments, "voxelizer free slots");
+    growFreeList();
     room(origins, std::size_t{4} * capacity.voxels, "voxelizer origins");
     room(workList, std::size_t{4} * capacity.faces, "voxelizer work list");
 

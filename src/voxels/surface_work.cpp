@@ -236,6 +236,15 @@ void SurfaceVoxels::Impl::growLists(const Capacity& wanted) {
     capacity = wanted;
 }
 
+// Slots that updates before have freed stay listed.
+void SurfaceVoxels::Impl::growFreeList() {
+    const std::size_t bytes = std::size_t{4} * capacity.fragments;
+    if (freeList && freeList.bytes() >= bytes) return;
+    gl::Buffer larger(bytes, "voxelizer free slots");
+    if (freeList) larger.copyFrom(freeList, freeList.bytes());
+    freeList = std::move(larger);
+}
+
 void SurfaceVoxels::Impl::reserveFaceLists(std::uint32_t faces) {
     owners = gl::Buffer(std::size_t{4} * faces, "voxelizer face owners");
     ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");

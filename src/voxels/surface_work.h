@@ -112,6 +112,7 @@ struct SurfaceVoxels::Impl {
     void growTriangles(std::uint32_t count);
     void reserveFaceLists(std::uint32_t faces);
     void growLists(const Capacity& wanted);
+    void growFreeList();
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
     gl::Inputs given() const;

@@ -148,6 +148,31 @@ TEST_F(VoxelUpdates, AnySequenceGivesTheBitsOfABuild) {
     EXPECT_GT(updates, 30);  // of 60: the rest moved out of the grid or were too much at once
 }
 
+// Slots that one update frees are taken by a later one, whose lists have grown in between.
+TEST_F(VoxelUpdates, FreeSlotsOutlastGrowth) {
+    gl::Device gpuDevice = device();
+    gpuDevice.profile = gl::ExecutionProfile::Gpu;
+    Scene scene = crowd();
+    scene::GpuScene gpu(scene);
+    SurfaceVoxels surface;
+    const auto update = [&](std::size_t index) {
+        gpu.setInstance(index, scene.instances[index]);
+        surface.update(gpuDevice, gpu, settings);
+        EXPECT_FALSE(surface.lastUpdate().whole);
+        return surface.mostFragmentSlots();
+    };
+    surface.update(gpuDevice, gpu, settings);
+    scene.instances[3].visible = false;
+    const std::uint32_t before = update(3);
+    for (const std::size_t index : {4u, 5u, 6u}) {
+        glm::mat4& m = scene.instances[index].worldFromObject;
+        m = glm::translate(glm::mat4(1), glm::vec3(0, 0.6f, 0)) * glm::scale(glm::mat4(1), glm::vec3(0.3f));
+        gpu.setInstance(index, scene.instances[index]);
+    }
+    EXPECT_GT(update(6), before);
+    EXPECT_EQ(download(surface), built(gpu));
+}
+
 // On a GPU counts come a frame later: shaders have them, the CPU knows a bound until it asks.
 TEST_F(VoxelUpdates, OnAGpuNobodyWaitsForThem) {
     gl::Device gpuDevice = device();
