@@ -14,7 +14,7 @@ struct GlossySurface {
     vec3 normal;  // geometric
     float metallic;
     float roughness;
-    bool reflects;   // a metal smooth enough to have a lobe of its own
+    bool reflects;   // a metal, which has a lobe
     bool areaLight;  // its emission is that of a rectangular light
 };
 
@@ -28,7 +28,7 @@ GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     normal = hit.triangle >= 0 ? hitTriangle.geometricNormal : normal;
 #endif
     bool areaLight = (bits & FACE_AREA_LIGHT) != 0u;
-    bool reflects = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS && s.cached && !areaLight;
+    bool reflects = hit.face >= 0 && lobe.x > 0.0 && s.cached && !areaLight;
     return GlossySurface(normal, lobe.x, lobe.y, reflects, areaLight);
 }
 

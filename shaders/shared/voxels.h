@@ -31,7 +31,7 @@
 // usable crossing. From the accuracy experiments behind docs/theory/2_voxels.md.
 #define VOXEL_FACING_THRESHOLD 0.02
 
-// Rougher surfaces are treated as diffuse where rays hit: their lobe is nearly as wide as the cosine.
+// Rougher dielectrics are treated as diffuse where rays hit: their lobe is wide, and has a few percent of their light.
 #define LOBE_MAX_ROUGHNESS 0.75
 
 // Names under which shaders read voxels (SurfaceVoxels::declare, OctantWords::declare):

@@ -46,6 +46,21 @@ TEST_F(GlossTest, APolishedFloorThrowsTheSunOnTheWall) {
     EXPECT_GT(even, 2 * error);
 }
 
+// The roughest lobe is not that of a diffuse surface. Files whose materials say nothing have such metal.
+TEST_F(GlossTest, RoughMetalIsNotDiffuse) {
+    Scene scene = court();
+    Material& floor = scene.materials[0];
+    floor.baseColor = glm::vec4(0.9f, 0.9f, 0.9f, 1);
+    floor.metallic = 1;
+    floor.roughness = 1;
+    reference::PathTracerSettings truthSettings;
+    truthSettings.samplesPerPixel = 256;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels, truthSettings);
+    EXPECT_LT(indirectError(draw(scene, tracedSettings(Quality::Interactive, Component::Indirect)), truth),
+              0.1);
+}
+
 // Lights that send nothing change nothing, though more than four are looked up in a loop.
 TEST_F(GlossTest, FurtherLightsLeaveHitsExact) {
     Scene scene = court();
