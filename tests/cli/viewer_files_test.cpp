@@ -24,7 +24,7 @@ class ViewerFilesTest : public ViewerPanelsTest {
     void fill(const std::string& field, const std::string& text) {
         click(field);
         screen->xdotool("key ctrl+a");
-        type(text, viewer->placeOf(field));
+        typeByFrames(text, viewer->placeOf(field));
         screen->xdotool("key Tab");
         pass();
     }

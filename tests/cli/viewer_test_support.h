@@ -88,6 +88,20 @@ class ViewerTest : public ::testing::Test {
             return still == 5;
         })) << text;
     }
+    // The same where no command is waiting: frames are counted, of which a letter takes up to two, however slow they are.
+    void typeByFrames(const std::string& text, const glm::ivec4& box) {
+        screen->xdotool("type --delay 30 '" + text + "'");
+        int still = 0;
+        ScreenPixels rest = screen->pixels();
+        EXPECT_TRUE(eventually([&] {
+            pass();
+            const ScreenPixels now = screen->pixels();
+            const bool same = now.changedFrom(rest, box) <= 2 * box.w;  // a cursor blinks
+            still = same ? still + 1 : 0;
+            if (!same) rest = now;
+            return still == 2;
+        })) << text;
+    }
     // Drags with the left button from a widget's left part, without commands between, which would end the
     // step of undo: each step is waited for on the screen.
     void dragWidget(const std::string& widget, const glm::vec2& from, const glm::ivec2& by) {
