@@ -54,9 +54,8 @@ struct Instance {
 #define MATERIAL_DETAIL_TEXTURES 64u  // has any of the other five
 #define MATERIAL_SOLID 128u           // glass that bends light: a closed surface
 #define MATERIAL_LAYERED 256u         // has a coat or sheen that shows
-#define MATERIAL_UNIT_NORMALS \
-    512u  // its normal map holds unit normals: means that are shorter tell their spread
-#define UNIT_NORMAL_ROUNDING 4e-3f  // unit normals of 8 bits have lengths of 1 within this
+#define MATERIAL_UNIT_NORMALS 512u    // its normal map holds unit normals: shorter means tell their spread
+#define UNIT_NORMAL_ROUNDING 4e-3f    // unit normals of 8 bits have lengths of 1 within this
 
 struct Material {
     vec4 baseColor;
