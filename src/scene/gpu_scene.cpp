@@ -21,6 +21,12 @@ bool hidesAlike(const Material& a, const Material& b) {
             a.baseColorTexture == b.baseColorTexture);
 }
 
+// Whether they use the same textures for the same things.
+bool usesAlike(const Material& a, const Material& b) {
+    return texturesOf(a).slots == texturesOf(b).slots &&
+           a.transmissionTexture.texture == b.transmissionTexture.texture;
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const Scene& source) : source_(source) {
@@ -222,11 +228,14 @@ void GpuScene::reshape(std::size_t index) {
 void GpuScene::setMaterial(std::size_t index, const Material& material) {
     const bool turnsGlass = isTransmissive(material) != isTransmissive(source_.materials[index]);
     const bool sameShadow = !turnsGlass && hidesAlike(material, source_.materials[index]);
+    const bool sameTextures = usesAlike(material, source_.materials[index]);
+    const std::uint32_t unit = materials_[index].flags & MATERIAL_UNIT_NORMALS;
     source_.materials[index] = material;
     materials_[index] = packedMaterial(material, source_.textures);
+    materials_[index].flags |= unit;
     materialTextures_[index] = texturesOf(material);
     materialBuffer_.update(index * sizeof(gpu::Material), &materials_[index], sizeof(gpu::Material));
-    updateNormalMaps();
+    if (!sameTextures) updateNormalMaps();
     geometryRevision_ = base::Revision::next();
     for (std::size_t i = 0; i < instances_.size(); ++i)
         if (instances_[i].material == index) {

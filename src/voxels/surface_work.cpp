@@ -20,12 +20,17 @@ constexpr float kLargestEmission = 65504.0f;  // what a half holds
 std::uint32_t trimmed(std::uint32_t have, std::uint32_t used) { return std::min(have, withSpare(used)); }
 
 // A list of which all that is there is kept, and the texture over it.
+void growBuffer(gl::Buffer& buffer, std::size_t bytes, const char* label) {
+    if (buffer && buffer.bytes() >= bytes) return;
+    gl::Buffer larger(bytes, label);
+    if (buffer) larger.copyFrom(buffer, buffer.bytes());
+    buffer = std::move(larger);
+}
+
 void growList(gl::Buffer& buffer, gl::Texture& texels, std::size_t bytes, const char* label) {
     const unsigned format = texels.desc().format;
-    gl::Buffer larger(bytes, label);
-    larger.copyFrom(buffer, buffer.bytes());
     texels = {};
-    buffer = std::move(larger);
+    growBuffer(buffer, bytes, label);
     texels = gl::Texture(buffer, format, label);
 }
 
@@ -213,11 +218,7 @@ bool SurfaceVoxels::Impl::grow() {
 void SurfaceVoxels::Impl::growTriangles(std::uint32_t count) {
     if (count <= capacity.triangles) return;
     const std::uint32_t room = count + count / 2;
-    gl::Buffer larger(std::size_t{48} * room, "voxelizer triangles");
-    larger.copyFrom(triangles, std::size_t{48} * capacity.triangles);
-    triangleTexels = {};
-    triangles = std::move(larger);
-    triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
+    growList(triangles, triangleTexels, std::size_t{48} * room, "voxelizer triangles");
     capacity.triangles = room;
 }
 
@@ -238,11 +239,7 @@ void SurfaceVoxels::Impl::growLists(const Capacity& wanted) {
 
 // Slots that updates before have freed stay listed.
 void SurfaceVoxels::Impl::growFreeList() {
-    const std::size_t bytes = std::size_t{4} * capacity.fragments;
-    if (freeList && freeList.bytes() >= bytes) return;
-    gl::Buffer larger(bytes, "voxelizer free slots");
-    if (freeList) larger.copyFrom(freeList, freeList.bytes());
-    freeList = std::move(larger);
+    growBuffer(freeList, std::size_t{4} * capacity.fragments, "voxelizer free slots");
 }
 
 void SurfaceVoxels::Impl::reserveFaceLists(std::uint32_t faces) {

@@ -69,38 +69,36 @@ class ViewerTest : public ::testing::Test {
         ASSERT_GT(place.z, 0) << viewer->output();
         click(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2);
     }
-    // As by someone who looks at the screen: waits until all of it stands in the box (x y width height), that
-    // is, nothing changes there any more while the program draws or waits for input. Commands may be waiting.
-    void type(const std::string& text, const glm::ivec4& box) {
-        screen->xdotool("type --delay 30 '" + text + "'");
+    // Until nothing changes in the box (x y width height) any more, looked at so many times after `looks` said so.
+    bool rests(const glm::ivec4& box, int times, const std::function<bool()>& looks) {
         int still = 0;
         ScreenPixels rest = screen->pixels();
-        double cpuMs = viewer->cpuMs();
-        EXPECT_TRUE(eventually([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            // 50 ms of its own time are a frame or more, chosen for the small window.
-            if (!viewer->waits() && viewer->cpuMs() < cpuMs + 50) return false;
-            cpuMs = viewer->cpuMs();
+        return eventually([&] {
+            if (!looks()) return false;
             const ScreenPixels now = screen->pixels();
             const bool same = now.changedFrom(rest, box) <= 2 * box.w;  // a cursor blinks
             still = same ? still + 1 : 0;
             if (!same) rest = now;
-            return still == 5;
+            return still == times;
+        });
+    }
+    // As by someone who looks at the screen: waits until all of it stands in the box, that is, nothing changes there any
+    // more while the program draws or waits for input. Commands may be waiting.
+    void type(const std::string& text, const glm::ivec4& box) {
+        screen->xdotool("type --delay 30 '" + text + "'");
+        double cpuMs = viewer->cpuMs();
+        EXPECT_TRUE(rests(box, 5, [&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            // 50 ms of its own time are a frame or more, chosen for the small window.
+            if (!viewer->waits() && viewer->cpuMs() < cpuMs + 50) return false;
+            cpuMs = viewer->cpuMs();
+            return true;
         })) << text;
     }
     // The same where no command is waiting: frames are counted, of which a letter takes up to two, however slow they are.
     void typeByFrames(const std::string& text, const glm::ivec4& box) {
         screen->xdotool("type --delay 30 '" + text + "'");
-        int still = 0;
-        ScreenPixels rest = screen->pixels();
-        EXPECT_TRUE(eventually([&] {
-            pass();
-            const ScreenPixels now = screen->pixels();
-            const bool same = now.changedFrom(rest, box) <= 2 * box.w;  // a cursor blinks
-            still = same ? still + 1 : 0;
-            if (!same) rest = now;
-            return still == 2;
-        })) << text;
+        EXPECT_TRUE(rests(box, 2, [&] { return pass(), true; })) << text;
     }
     // Drags with the left button from a widget's left part, without commands between, which would end the
     // step of undo: each step is waited for on the screen.

@@ -117,6 +117,12 @@ void changeSomething(Scene& scene, scene::GpuScene& gpu, std::mt19937& random) {
 struct VoxelUpdates : public GlTest {
     VoxelSettings settings{.size = 32};
 
+    gl::Device deviceOfGpu() {
+        gl::Device gpu = device();
+        gpu.profile = gl::ExecutionProfile::Gpu;
+        return gpu;
+    }
+
     Content built(const scene::GpuScene& scene) {
         SurfaceVoxels surface;
         surface.build(device(), scene, settings);
@@ -150,8 +156,7 @@ TEST_F(VoxelUpdates, AnySequenceGivesTheBitsOfABuild) {
 
 // Slots that one update frees are taken by a later one, whose lists have grown in between.
 TEST_F(VoxelUpdates, FreeSlotsOutlastGrowth) {
-    gl::Device gpuDevice = device();
-    gpuDevice.profile = gl::ExecutionProfile::Gpu;
+    const gl::Device gpuDevice = deviceOfGpu();
     Scene scene = crowd();
     scene::GpuScene gpu(scene);
     SurfaceVoxels surface;
@@ -175,8 +180,7 @@ TEST_F(VoxelUpdates, FreeSlotsOutlastGrowth) {
 
 // On a GPU counts come a frame later: shaders have them, the CPU knows a bound until it asks.
 TEST_F(VoxelUpdates, OnAGpuNobodyWaitsForThem) {
-    gl::Device gpuDevice = device();
-    gpuDevice.profile = gl::ExecutionProfile::Gpu;
+    const gl::Device gpuDevice = deviceOfGpu();
     Scene scene = crowd();
     scene::GpuScene gpu(scene);
     SurfaceVoxels surface;
