@@ -28,6 +28,7 @@
 #include "io/geometry.h"
 #include "io/groups.h"
 #include "io/scene_stream.h"
+#include "io/starting_settings.h"
 #include "io/upright.h"
 
 namespace conelight::io {
@@ -343,7 +344,6 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
         if (source.mNumAnimations > 0)
             scene.notes.push_back(fmt::format("{} animation{} left out", source.mNumAnimations,
                                               source.mNumAnimations == 1 ? "" : "s"));
-        scene.settings.emplace_back("image.exposure", "auto");
         if (!scene.lights.empty())
             scene.notes.push_back("light colours of this format have no unit; taken as W/sr and W/m^2");
     });
@@ -351,6 +351,7 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
         fail("holds no triangles, lights or cameras");
     takeUpAxis(scene, path, options.up);
     removeMirrors(scene);
+    addStartingSettings(scene);
     // Clip planes of these formats come in the file's units, unlike the rest: derive them from the size.
     const float size = scene.instances.empty() ? 1.0f : glm::length(scene.bounds().extent());
     for (Camera& camera : scene.cameras) {

@@ -25,6 +25,7 @@
 #include "io/gltf_profile.h"
 #include "io/groups.h"
 #include "io/scene_info.h"
+#include "io/starting_settings.h"
 
 namespace conelight::io {
 
@@ -154,9 +155,6 @@ void Reader::readOwnExtras(const GltfValue& scene) {
     for (std::size_t i = 0; i < settings.size(); ++i)
         scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),
                                      settings[i][std::size_t(1)].text(""));
-    // Other programs' lights and emission are as bright as they like.
-    const bool ours = file_.root()["asset"]["generator"].text("").rfind("Conelight", 0) == 0;
-    if (!ours && settings.size() == 0) scene_.settings.emplace_back("image.exposure", "auto");
 }
 
 void Reader::readFlags(std::size_t node, const GltfValue& value, Instance& instance) const {
@@ -474,6 +472,8 @@ Scene Reader::read(SceneAnimation* animation) {
     poseAtRest();
     addGroups();
     keepHung(removeMirrors(scene_));
+    const bool ours = file_.root()["asset"]["generator"].text("").rfind("Conelight", 0) == 0;
+    if (!ours && scene_.settings.empty()) addStartingSettings(scene_);
     if (animation != nullptr) *animation = std::move(animation_);
     return std::move(scene_);
 }

@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/glass_sight.glsl"
+#include "lib/loops.glsl"
 #include "lib/picture_pass.glsl"
 #include "lib/random.glsl"
 #include "lib/surface_array.glsl"

@@ -12,6 +12,7 @@
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
+#include "lib/loops.glsl"
 #include "lib/pixel_shift.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"

@@ -21,6 +21,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/ggx_sample.glsl"
+#include "lib/loops.glsl"
 #include "lib/surface_array.glsl"
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"

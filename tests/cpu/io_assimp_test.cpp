@@ -311,6 +311,14 @@ TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
     EXPECT_EQ(scene.settings, automatic);
 }
 
+TEST(Assimp, LargeScenesStartWithNestedGrids) {
+    using Values = std::vector<std::pair<std::string, std::string>>;
+    EXPECT_EQ(loadObj("large", "v 0 0 0\nv 30 0 0\nv 0 1 0\nf 1 2 3\n").settings,
+              (Values{{"image.exposure", "auto"}, {"voxels.levels", "0"}}));
+    EXPECT_EQ(loadObj("room", std::string(kTriangle) + "f 1 2 3\n").settings,
+              (Values{{"image.exposure", "auto"}}));
+}
+
 TEST(Assimp, ACameraThatSeesNothingIsNotTheFirst) {
     std::string turned = kCollada;
     const std::string forward = "<rotate>1 0 0 90</rotate>";

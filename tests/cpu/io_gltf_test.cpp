@@ -125,6 +125,24 @@ TEST(Gltf, MirroredNodesKeepTheirFrontOutside) {
                {0, 0, 1});
 }
 
+// One grid of 128 voxels makes rooms of 20 m; nested ones make landscapes.
+TEST(Gltf, LargeScenesStartWithNestedGrids) {
+    using Values = std::vector<std::pair<std::string, std::string>>;
+    const Values small{{"image.exposure", "auto"}};
+    const Values large{{"image.exposure", "auto"}, {"voxels.levels", "0"}};
+    for (const float edge : {19.0f, 21.0f}) {
+        GltfBuilder b;
+        b.triangle();  // of edge 1
+        b.node({{"mesh", 0}, {"scale", {edge, 1, 1}}});
+        EXPECT_EQ(loadGlb(b, "large").settings, edge < 20 ? small : large) << edge << " m";
+    }
+    GltfBuilder own;
+    own.json["asset"]["generator"] = "Conelight";
+    own.triangle();
+    own.node({{"mesh", 0}, {"scale", {100, 1, 1}}});
+    EXPECT_TRUE(loadGlb(own, "own").settings.empty()) << "files of ours say what they want";
+}
+
 TEST(Gltf, DropsInstancesWithoutVolume) {
     GltfBuilder b;
     b.triangle();
