@@ -54,11 +54,12 @@ const int kRays = 16;            // per face; sums over a brick are within 3 %, 
 const float kFromOutside = 1.5;  // voxels: what reaches beyond the surface is nearer
 
 // Walks: so far without meeting a triangle is away, voxels; turns until one is given up; walks per voxel side
-// of a fragment, and per fragment. Software drivers end all loops of an invocation together after 65,535
-// turns: these leave room for chains of 600.
+// of a fragment, and per fragment. What is sent into a narrow gap takes many turns to get out of it, and is not shut in.
+// Software drivers end all loops of an invocation together after 65,535 turns: these leave room for chains of 150 where
+// a lamp is shut in, and more elsewhere.
 const float kWalkStart = 1e-3;  // off the surface, voxels
 const float kWalkReach = 2.5;
-const int kWalkTurns = 8;
+const int kWalkTurns = 40;
 const float kWalks = 8.0;
 const int kLeastWalks = 2, kMostWalks = 4;
 const float kLeast = 0.5, kMost = 1.5;

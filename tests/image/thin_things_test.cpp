@@ -39,6 +39,23 @@ TEST_F(ThinThings, ABulbOfTwoSidesIsNoBrighter) {
     EXPECT_NEAR(indirectMean(two, true, 80) / indirectMean(one, true, 80), 1.0, 0.05);
 }
 
+// A lamp hovers three quarters of a voxel below a ceiling, ten times as wide as the gap is high. Its light takes many turns
+// to get out of the gap, but is not shut in: the ceiling is lit as if by an endless plane.
+TEST_F(ThinThings, ALampBelowACeilingLightsIt) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}), diffuseMaterial(glm::vec3(0.5f)));
+    Mesh lamp = boxMesh();
+    for (glm::vec3& p : lamp.positions)
+        p = p * glm::vec3(0.0625f, 0.01f, 0.0625f) + glm::vec3(0, 1 - 0.0125f - 0.01f, 0);
+    addInstance(scene, lamp, diffuseMaterial(glm::vec3(0), glm::vec3(1)));
+    Camera camera;
+    camera.eye = {0, 0.994f, 0};
+    camera.target = {0.01f, 1, 0};
+    camera.fovY = 0.02f;
+    scene.cameras = {camera};
+    EXPECT_GT(indirectMean(scene), 0.8 * 0.5);
+}
+
 // Curtains beside a window, frames on a wall, skirting, a rug: rays that meet triangles near their start come
 // closer to the path tracer than those that meet plane pieces alone.
 TEST_F(ThinThings, FoldsAndFramesHideLight) {
