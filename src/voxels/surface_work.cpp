@@ -19,7 +19,7 @@ constexpr float kLargestEmission = 65504.0f;  // what a half holds
 // Room for what is there and a little more, if that is less than there is.
 std::uint32_t trimmed(std::uint32_t have, std::uint32_t used) { return std::min(have, withSpare(used)); }
 
-// A list of which all that is there is kept, and the texture over it.
+// Makes room for so many bytes; all that is there is kept.
 void growBuffer(gl::Buffer& buffer, std::size_t bytes, const char* label) {
     if (buffer && buffer.bytes() >= bytes) return;
     gl::Buffer larger(bytes, label);
@@ -27,6 +27,7 @@ void growBuffer(gl::Buffer& buffer, std::size_t bytes, const char* label) {
     buffer = std::move(larger);
 }
 
+// The same, and the texture over it.
 void growList(gl::Buffer& buffer, gl::Texture& texels, std::size_t bytes, const char* label) {
     const unsigned format = texels.desc().format;
     texels = {};
