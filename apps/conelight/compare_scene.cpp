@@ -20,6 +20,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// Whose errors bars are held against: the whole picture's, or those of the first component where it is not measured.
+std::string barsComponent(const CompareSceneOptions& options) {
+    if (!options.barsOn.empty()) return options.barsOn;
+    const std::vector<std::string> names = splitList(options.components);
+    return std::find(names.begin(), names.end(), "full") != names.end() ? "full" : names.front();
+}
+
 std::vector<Component> componentsOf(const CompareSceneOptions& options) {
     std::vector<Component> components;
     const std::vector<std::string> names = splitList(options.components);
@@ -34,8 +41,9 @@ std::vector<Component> componentsOf(const CompareSceneOptions& options) {
         components.push_back(componentOf(name));
     }
     if (components.empty()) usage("--components: there is none; full would be right");
-    if (std::find(names.begin(), names.end(), options.barsOn) == names.end())
-        usage("--bars-on: '" + options.barsOn + "' is not among --components; one of " + options.components +
+    const std::string barsOn = barsComponent(options);
+    if (std::find(names.begin(), names.end(), barsOn) == names.end())
+        usage("--bars-on: '" + barsOn + "' is not among --components; one of " + options.components +
               " would be right");
     return components;
 }
@@ -69,9 +77,10 @@ SceneComparisonRequest requestOf(const CompareSceneOptions& options) {
 // "cones voxels.size=64, indirect: relRMSE 0.2 is above 0.1 (--max-relrmse)".
 std::vector<std::string> brokenBars(const CompareSceneOptions& options, const SceneComparison& comparison) {
     std::vector<std::string> all;
+    const std::string barsOn = barsComponent(options);
     for (const VariantResult& result : comparison.variants)
         for (const ComponentResult& component : result.components) {
-            if (component.name != options.barsOn) continue;
+            if (component.name != barsOn) continue;
             for (const std::string& broken : options.comparison.bars.brokenBy(component.metrics))
                 all.push_back(fmt::format("{} {} {}: {}", comparison.scene, result.variant.label(),
                                           component.name, broken));
@@ -274,8 +283,9 @@ void CompareSceneOptions::addTo(CLI::App& command) {
         .add_option("--components", components, "what is measured: full, direct, indirect, diffuse, specular")
         ->capture_default_str()
         ->type_name("A,B");
-    command.add_option("--bars-on", barsOn, "the component that bars are held against")
-        ->capture_default_str()
+    command
+        .add_option("--bars-on", barsOn,
+                    "the component that bars are held against (default: full, or the first of --components)")
         ->type_name("NAME");
     command
         .add_option("--pixels", pixels,

@@ -22,7 +22,7 @@ struct CompareSceneOptions {
     std::string referenceFile;
     std::string cache;
     std::string components = "full,direct,indirect";
-    std::string barsOn = "full";
+    std::string barsOn;  // empty: barsComponent() chooses
     std::string pixels;
     std::string shaderDirectory;
     int frames = 1;

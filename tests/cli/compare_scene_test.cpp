@@ -177,6 +177,17 @@ TEST_F(CompareSceneTest, SeveralScenesAndJsonOnStandardOutput) {
     EXPECT_EQ(json["scenes"][1]["scene"], "builtin:cornell-point");
 }
 
+TEST_F(CompareSceneTest, BarsHoldForTheFirstComponentWhereTheWholePictureIsLeftOut) {
+    // Phong has all of the direct light and none of the rest.
+    const std::string scene =
+        "compare builtin:furnace --modes phong --max-relrmse 0.01" + std::string(kSmall);
+    EXPECT_EQ(conelight(scene + " --components direct").status, 0);
+    EXPECT_EQ(conelight(scene + " --components direct,indirect").status, 0);
+    const CommandResult broken = conelight(scene + " --components indirect,direct");
+    EXPECT_EQ(broken.status, 1);
+    EXPECT_NE(broken.output.find("indirect: relRMSE"), std::string::npos) << broken.output;
+}
+
 TEST_F(CompareSceneTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(conelight("compare builtin:cornell --modes cube"), 2, "cube");
     expectOneLine(conelight("compare builtin:cornell --against cube"), 2, "cube");
