@@ -29,7 +29,7 @@ int emitLevel = 0;
 layout(std430) readonly buffer StaleTable { uint stale[]; };
 // Whether the triangle is of an instance that changed: others are listed only in voxels that a level has not held.
 bool emitHeld = true;
-bool hasChanged(uint instance) { return (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u; }
+bool isStale(uint instance) { return (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u; }
 #endif
 #define TILE_LEVEL_SHIFT 24
 #define TILE_WORD(x, y) (uint(x) | uint(y) << 12 | uint(emitLevel) << TILE_LEVEL_SHIFT)

@@ -186,7 +186,7 @@ void main() {
     columnBounds(a, b, c, axis, low, high);
     bool met = t.used && all(greaterThan(high, low));
 #if SURFACE_UPDATE && NESTED_GRIDS
-    emitHeld = hasChanged(instance);
+    emitHeld = isStale(instance);
     met = met && (emitHeld || mayEnter(fromDominant(low, axis), fromDominant(high, axis), emitLevel));
 #endif
     ivec2 columns = met ? high.xy - low.xy : ivec2(0);

@@ -24,7 +24,7 @@ void main() {
     emitLevel = int(used ? entry.y >> TILE_LEVEL_SHIFT : 0u);
     vec4 place = levelPlace(emitLevel);
 #if SURFACE_UPDATE
-    emitHeld = hasChanged(floatBitsToUint(texelFetch(triangles, 3 * triangle).w) & 0xffffffu);
+    emitHeld = isStale(floatBitsToUint(texelFetch(triangles, 3 * triangle).w) & 0xffffffu);
 #endif
     p0 = levelFromGrid(p0, place);
     p1 = levelFromGrid(p1, place);
