@@ -35,7 +35,7 @@ float bentPart(const scene::GpuScene& scene, std::size_t index) {
 }
 
 // Of the size of an instance, [0,1]: by how much it moved and bent; 1 where that is not known.
-float partChanged(const scene::GpuScene& scene, const scene::InstanceChange& change) {
+float movedPart(const scene::GpuScene& scene, const scene::InstanceChange& change) {
     if (change.came || (change.reshaped && !change.keepsVertices)) return 1;
     const float bend = change.reshaped ? bentPart(scene, change.index) : 0;
     const float move = change.moved
@@ -66,7 +66,7 @@ EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const bool placed = change != changes.end() && change->index == i;
         // One that neither moved nor bent looks other than it did, all of it.
-        const float part = placed ? partChanged(scene, *change++) : 1;
+        const float part = placed ? movedPart(scene, *change++) : 1;
         Entry& entry = entries_[i];
         if (entry.revision == scene.instanceRevision(i)) continue;
         const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), emits(scene, i)};
