@@ -20,10 +20,12 @@ class ViewerFilesTest : public ViewerPanelsTest {
         start(options + kCheap + "builtin:cornell", "XDG_STATE_HOME=" + state);
         settle();
     }
-    // Into a field of a dialog, over what is there.
+    // Into a field of a dialog, over what is there. Ctrl is up again before the program looks.
     void fill(const std::string& field, const std::string& text) {
         click(field);
+        viewer->pause();
         screen->xdotool("key ctrl+a");
+        viewer->resume();
         typeByFrames(text, viewer->placeOf(field));
         screen->xdotool("key Tab");
         pass();

@@ -28,6 +28,26 @@ constexpr float kMinScale = 0.5f, kMaxScale = 4;
 
 bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 
+// Ctrl, Shift, Alt and Super as they were when the key came. From Dear ImGui 1.87 on its backend asks what is down now,
+// when a quick Ctrl may be up again.
+void tellModifiers([[maybe_unused]] const platform::Window::KeyEvent& event) {
+#if IMGUI_VERSION_NUM >= 18700
+    struct Modifier {
+        ImGuiKey name;
+        int bit, left, right;
+    };
+    for (const auto& [name, bit, left, right] :
+         {Modifier{kModCtrl, GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+          Modifier{kModShift, GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+          Modifier{kModAlt, GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+          Modifier{kModSuper, GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}) {
+        const bool itself = event.key == left || event.key == right;
+        const bool down = itself ? event.action != GLFW_RELEASE : (event.modifiers & bit) != 0;
+        ImGui::GetIO().AddKeyEvent(name, down);
+    }
+#endif
+}
+
 // Neutral greys, so that the GUI does not tint the eye that judges the picture; one accent. The light ones are the
 // dark ones turned round, with a little less contrast between grounds.
 void setColors(ImGuiStyle& style, bool light) {
@@ -157,6 +177,7 @@ void Gui::takeKeys() {
         if (!character && !changed.insert(event.key).second) return;
         ImGui_ImplGlfw_KeyCallback(window_.handle(), event.key, event.scancode, event.action,
                                    event.modifiers);
+        tellModifiers(event);
         if (event.action != GLFW_PRESS) continue;
         keyPresses_.push_back(event);
         if (!character && !isModifier(event.key)) framesToPass_ = kFramesToFocus;

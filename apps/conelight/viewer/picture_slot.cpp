@@ -107,9 +107,9 @@ bool PictureSlot::draw(const Session& session, const std::string& mode, int widt
         impl_->mode = mode;
     }
     try {
-        const bool more = impl_->draw(session, width, height, how);
+        impl_->due = impl_->draw(session, width, height, how);
         if (!how.onlyChanges) impl_->lastError.clear();
-        return more;
+        return impl_->due;
     } catch (const std::exception& error) {
         // Not tried again before something changes.
         impl_->shown = keyOf(session.revisions());
@@ -117,7 +117,7 @@ bool PictureSlot::draw(const Session& session, const std::string& mode, int widt
         impl_->width = width;
         impl_->height = height;
         impl_->settling = 0;
-        impl_->asked = false;
+        impl_->asked = impl_->due = false;
         impl_->drop();
         if (impl_->lastError != error.what()) impl_->error = error.what();
         impl_->lastError = error.what();
@@ -455,7 +455,7 @@ std::string PictureSlot::label() const {
 
 bool PictureSlot::finished() const {
     if (!impl_->lastError.empty()) return true;  // until something changes
-    if (!ownPicture() || impl_->settling > 0 || impl_->renderer.inspecting()) return false;
+    if (!ownPicture() || impl_->due || impl_->settling > 0 || impl_->renderer.inspecting()) return false;
     if (impl_->mode == "reference") return !impl_->reference.status().running;
     if (impl_->mode == "beams") return !impl_->beams.status().running;
     if (impl_->mode == "hybrid") return !impl_->statics.status().running;

@@ -45,6 +45,7 @@ struct PictureSlot::Impl {
     bool own = false;      // the picture is the mode's and of this view
     bool preview = false;  // it is another mode's while the mode has none
     bool asked = false;    // redraw()
+    bool due = false;      // the last draw() left something to do
     float headlight = 0;
     int width = 0, height = 0;
     PicturePasses passes;              // of the picture
