@@ -28,3 +28,12 @@ function(conelight_warnings target)
     target_compile_options(${target} PUBLIC -fsanitize=fuzzer-no-link)
   endif()
 endfunction()
+
+# conelight_keep_libraries(TARGET): under sanitizers, a program whose leak report names the drivers' libraries
+# (tools/keep_libraries.cpp).
+function(conelight_keep_libraries target)
+  if(CONELIGHT_SANITIZE)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tools/keep_libraries.cpp)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/tools/keep_libraries.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
