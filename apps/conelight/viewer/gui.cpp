@@ -28,19 +28,19 @@ constexpr float kMinScale = 0.5f, kMaxScale = 4;
 
 bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 
-// Ctrl, Shift, Alt and Super as they were when the key came. From Dear ImGui 1.87 on its backend asks what is down now,
+// Ctrl, Shift, Alt and Super as they were when the key came. Newer backends of Dear ImGui ask what is down now,
 // when a quick Ctrl may be up again.
 void tellModifiers([[maybe_unused]] const platform::Window::KeyEvent& event) {
-#if IMGUI_VERSION_NUM >= 18700
+#if IMGUI_VERSION_NUM >= 18900
     struct Modifier {
         ImGuiKey name;
         int bit, left, right;
     };
     for (const auto& [name, bit, left, right] :
-         {Modifier{kModCtrl, GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
-          Modifier{kModShift, GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
-          Modifier{kModAlt, GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
-          Modifier{kModSuper, GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}) {
+         {Modifier{ImGuiMod_Ctrl, GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+          Modifier{ImGuiMod_Shift, GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+          Modifier{ImGuiMod_Alt, GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+          Modifier{ImGuiMod_Super, GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}) {
         const bool itself = event.key == left || event.key == right;
         const bool down = itself ? event.action != GLFW_RELEASE : (event.modifiers & bit) != 0;
         ImGui::GetIO().AddKeyEvent(name, down);

@@ -20,16 +20,6 @@ constexpr ImGuiSelectableFlags kKeepPopup = ImGuiSelectableFlags_NoAutoClosePopu
 constexpr ImGuiSelectableFlags kKeepPopup = ImGuiSelectableFlags_DontClosePopups;
 #endif
 
-#if IMGUI_VERSION_NUM >= 18900
-constexpr ImGuiKey kModCtrl = static_cast<ImGuiKey>(ImGuiMod_Ctrl),
-                   kModShift = static_cast<ImGuiKey>(ImGuiMod_Shift),
-                   kModAlt = static_cast<ImGuiKey>(ImGuiMod_Alt),
-                   kModSuper = static_cast<ImGuiKey>(ImGuiMod_Super);
-#elif IMGUI_VERSION_NUM >= 18700
-constexpr ImGuiKey kModCtrl = ImGuiKey_ModCtrl, kModShift = ImGuiKey_ModShift, kModAlt = ImGuiKey_ModAlt,
-                   kModSuper = ImGuiKey_ModSuper;
-#endif
-
 // Of the window's context: an integer or a pointer, by ImGui's version.
 inline ImTextureID textureId(std::uint32_t texture) {
     return (ImTextureID)(static_cast<std::uintptr_t>(texture));
