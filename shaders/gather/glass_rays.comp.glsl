@@ -131,14 +131,13 @@ bool followsThrough(inout GlassPath path, inout PathParts pathParts, vec2 parts,
 }
 
 // The next part that was passed by: through where the last path was, up to the last split at which it was; there it is
-// reflected. False: there is none.
-bool nextBranch(inout PathParts pathParts) {
+// reflected. None is left: known is kNoParts.
+const int kNoParts = -1;
+void nextBranch(inout PathParts pathParts) {
     uint given = pathParts.taken & ((1u << pathParts.known) - 1u);
     int last = findMSB(~given & ((1u << pathParts.splits) - 1u));
-    if (last < 0) return false;
-    uint bit = 1u << last;
-    pathParts = PathParts((given & (bit - 1u)) | bit, last + 1, 0);
-    return true;
+    uint bit = 1u << max(last, 0);
+    pathParts = PathParts((given & (bit - 1u)) | bit, last < 0 ? kNoParts : last + 1, 0);
 }
 
 // The ray of the path's last stretch, up to glass in its way at `end`, metres.
@@ -151,9 +150,23 @@ Ray stretchOf(GlassPath path, float end, bool open) {
                vec3(0.0));
 }
 
-// Light along it.
-vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout bool sure) {
-    Ray ray = stretchOf(path, end, open);
+// The last stretch of a path that a ray is to look along.
+struct GlassEnd {
+    GlassPath path;
+    float end;  // m, where glass is in its way; or one of these
+    uint random;
+};
+const float kOpen = -1.0, kNoRay = -2.0;
+GlassEnd noStretch() {
+    vec3 zero = vec3(0.0);
+    return GlassEnd(GlassPath(zero, zero, zero, zero, 0.0, false, false), kNoRay, 0u);
+}
+
+// Light that it brings to the eye.
+vec3 lastStretch(GlassEnd last, inout bool sure) {
+    GlassPath path = last.path;
+    uint random = last.random;
+    Ray ray = stretchOf(path, last.end, last.end == kOpen);
     pathStartsNarrow = path.narrow;
     allRectPoints = path.alpha == 0.0;
     PathSettings settings = PathSettings(-1.0, int(glassPass.reflections), path.alpha, glassPass.fireflyClamp,
@@ -163,7 +176,7 @@ vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout
     // Metals reflect by chance
     uint bits = texelFetch(litFaces, max(hit.face, 0)).w;
     sure = sure && (hit.face < 0 || litLobe(bits).x <= 0.0);
-    return radiance;
+    return path.throughput * radiance;
 }
 
 // Sends a path through the surface, or back from it. h: the facet's normal.
@@ -183,9 +196,10 @@ void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi,
     if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
 }
 
-// What comes along one path, less what paths before it have met on the same way. `sure`: chance has no part in it.
-vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint pixelSeed, vec3 behind,
-                inout bool sure) {
+// Follows a path. Returns the light that comes along it, less what paths before it have met on the same way and what a
+// ray is to bring from its `last` stretch. `sure`: chance has no part in it.
+vec3 followGlass(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint pixelSeed, vec3 behind,
+                 inout bool sure, inout GlassEnd last) {
     GlassPath path = GlassPath(sight.origin, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
     uint number = glassPass.firstPass + glassPass.pass;
     uint random = randomHash(pixelSeed ^ randomHash(number));
@@ -237,9 +251,8 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint 
         ended = goesOn && found;
         goesOn = goesOn && !found;
     } while (goesOn && ++met < kMostGlass);
-    vec3 arrives = behind;
-    if (ended && path.bent) arrives = pathRadiance(path, hit.t, open, random, sure);
-    return ended ? light + path.throughput * arrives : light;
+    if (ended && path.bent) last = GlassEnd(path, hit.triangle < 0 ? kOpen : hit.t, random);
+    return ended && !path.bent ? light + path.throughput * behind : light;
 }
 
 void main() {
@@ -257,8 +270,14 @@ void main() {
     PathParts pathParts = PathParts(0u, 0, 0);
     int paths = 0;
     do {
-        light += glassLight(first, sight, pathParts, seed, behind.rgb, sure);
-    } while (nextBranch(pathParts) && ++paths < kMostPaths);
+        // Paths up to one that needs a ray: it costs much, and is asked for in one place
+        GlassEnd last = noStretch();
+        do {
+            light += followGlass(first, sight, pathParts, seed, behind.rgb, sure, last);
+            nextBranch(pathParts);
+        } while (pathParts.known != kNoParts && ++paths < kMostPaths && last.end == kNoRay);
+        if (last.end != kNoRay) light += lastStretch(last, sure);
+    } while (pathParts.known != kNoParts && paths < kMostPaths);
     sure = sure && glassPass.pass == 0u;
     if (!sure && glassPass.pass + 1u < glassPass.passes) {
         imageStore(sums, pixel, vec4(light, 0.0));

@@ -92,25 +92,40 @@ void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, 
     if (met) hit = GlassHit(index, t, barycentric, back);
 }
 
+// A walk through the tree. Mesa's software driver gives invocations that have left a loop what others compute in it, but
+// for variables that each turn of the loop reads: after these loops no others are used.
+struct GlassWalk {
+    uint node;         // the next one; GLASS_END: none is left
+    uint first, last;  // triangles of the leaf that were not looked at
+};
+
+// On to the next leaf whose box the ray enters before `end`.
+void toGlassLeaf(inout GlassWalk walk, vec3 origin, vec3 inverse, float end) {
+    do {
+        GlassNode n = glassNode(walk.node);
+        bool met = meetsGlassBox(n.lower, n.upper, origin, inverse, end);
+        bool leaf = n.triangles != 0u;
+        walk.first = met && leaf ? n.triangles / GLASS_LEAF : walk.first;
+        walk.last = met && leaf ? walk.first + n.triangles % GLASS_LEAF : walk.last;
+        walk.node = met && !leaf ? walk.node + 1u : n.skip;
+    } while (walk.first == walk.last && walk.node != GLASS_END);
+}
+
 // The nearest triangle of glass before `end` but for `except`, the one that the ray starts on. `cullsBacks`: those of
 // single-sided materials are seen from their front alone.
 GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool cullsBacks) {
     vec3 inverse = glassInverse(direction);
     GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
-    uint node = 0u;
-    uint first = 0u, last = 0u;  // of the leaf's triangles
+    GlassWalk walk = GlassWalk(0u, 0u, 0u);
     do {
-        GlassNode n = glassNode(node);
-        bool met = meetsGlassBox(n.lower, n.upper, origin, inverse, hit.t);
-        first = n.triangles / GLASS_LEAF;
-        last = met ? first + n.triangles % GLASS_LEAF : first;
-        while (first < last) {
-            if (int(first) != except)
-                testGlassTriangle(int(first), origin, direction, cullsBacks, false, hit);
-            ++first;
+        toGlassLeaf(walk, origin, inverse, hit.t);
+        if (walk.first < walk.last) {
+            do {
+                if (int(walk.first) != except)
+                    testGlassTriangle(int(walk.first), origin, direction, cullsBacks, false, hit);
+            } while (++walk.first < walk.last);
         }
-        node = met && n.triangles == 0u ? node + 1u : n.skip;
-    } while (node != GLASS_END);
+    } while (walk.node != GLASS_END);
     return hit;
 }
 
@@ -204,6 +219,24 @@ float veilTransmittance(vec3 origin, vec3 direction, GlassHit hit) {
     return counts ? 1.0 - clamp(opacity, 0.0, 1.0) : 1.0;
 }
 
+// The next triangle between `near` and `end`, in the order of the tree.
+GlassHit nextGlass(inout GlassWalk walk, vec3 origin, vec3 direction, vec3 inverse, float near, float end,
+                   const bool veils) {
+    GlassHit next = GlassHit(-1, end, vec2(0.0), false);
+    do {
+        if (walk.first == walk.last) toGlassLeaf(walk, origin, inverse, end);
+        if (walk.first < walk.last) {
+            do {
+                GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
+                testGlassTriangle(int(walk.first), origin, direction, false, veils, hit);
+                if (hit.triangle >= 0 && hit.t > near) next = hit;
+                ++walk.first;
+            } while (next.triangle < 0 && walk.first < walk.last);
+        }
+    } while (next.triangle < 0 && walk.node != GLASS_END);
+    return next;
+}
+
 // What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
 // bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left. `ofLamp`: the
 // light that solids with maps of caustics send on arrives by these, and not here. It passes veils in part, which other
@@ -215,37 +248,27 @@ vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, 
     vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
     vec3 bend = vec3(0.0);
     float near = kGlassNear * largestCoordinate(origin);
-    uint node = 0u;
-    uint first = 0u, last = 0u;  // of the leaf's triangles
+    GlassWalk walk = GlassWalk(0u, 0u, 0u);
     do {
-        GlassNode n = glassNode(node);
-        bool met = meetsGlassBox(n.lower, n.upper, origin, inverse, end);
-        first = n.triangles / GLASS_LEAF;
-        last = met ? first + n.triangles % GLASS_LEAF : first;
-        while (first < last) {
-            GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
-            testGlassTriangle(int(first), origin, direction, false, kVeils, hit);
-            bool counts = hit.triangle >= 0 && hit.t > near;
-            uint solid = counts && ofLamp ? glassTriangle(hit.triangle).solid : CAUSTIC_NO_SOLID;
-            if (turnsAllLight(solid)) {
-                left = vec3(0.0);
-                end = -1.0;  // no further box is met
-            } else if (solid == GLASS_VEIL) {
-                left *= veilTransmittance(origin, direction, hit);
-            } else if (counts) {
-                GlassSurface s = glassSurface(origin, direction, hit);
-                left *= s.through;
-                float cosine = max(-dot(s.normal, direction), 0.05);
-                if (s.solid) {
-                    float side = hit.back ? 1.0 : -1.0;
-                    opticalDepth += side * hit.t * s.absorption;
-                    bend += side * (s.ior - 1.0) * (s.normal / cosine + direction);
-                }
+        GlassHit hit = nextGlass(walk, origin, direction, inverse, near, end, kVeils);
+        bool counts = hit.triangle >= 0;
+        uint solid = counts && ofLamp ? glassTriangle(hit.triangle).solid : CAUSTIC_NO_SOLID;
+        if (turnsAllLight(solid)) {
+            left = vec3(0.0);
+            walk = GlassWalk(GLASS_END, 0u, 0u);
+        } else if (solid == GLASS_VEIL) {
+            left *= veilTransmittance(origin, direction, hit);
+        } else if (counts) {
+            GlassSurface s = glassSurface(origin, direction, hit);
+            left *= s.through;
+            float cosine = max(-dot(s.normal, direction), 0.05);
+            if (s.solid) {
+                float side = hit.back ? 1.0 : -1.0;
+                opticalDepth += side * hit.t * s.absorption;
+                bend += side * (s.ior - 1.0) * (s.normal / cosine + direction);
             }
-            ++first;
         }
-        node = met && n.triangles == 0u ? node + 1u : n.skip;
-    } while (node != GLASS_END);
+    } while (walk.node != GLASS_END || walk.first < walk.last);
     float strays = smoothstep(0.5, 1.5, length(bend) / mostBend);
     return left * exp(-max(opticalDepth, vec3(0.0))) * (1.0 - strays);
 }
