@@ -252,49 +252,80 @@ uint facingRay(bvec3 mirrored) {
 }
 
 #if NEAR_TRIANGLES
-// Tests the triangles of the voxels that a ray enters before `end` (negative: none); moves t and the cell to
-// where it stops.
-void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, inout ivec3 cell,
-                       inout VoxelHit hit) {
+// A walk from voxel to voxel with triangles.
+struct TriangleWalk {
+    float t;
+    float end;  // it stops there; negative: it sees nothing
+    ivec3 cell;
+};
+
+// On to the first triangle that is no hole there.
+TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, inout TriangleWalk walk) {
     ivec3 last = gridSize() - 1;
-    bool alive = end >= 0.0;
+    bool alive = walk.end >= 0.0;
+    TriangleCrossing met, passed = noCrossing(ray);
+    bool hole;
     do {
-        ivec3 left = cell;
-        bool occupied = leaveCell(ray, mirrored, alive, t, cell);
-        testVoxelTriangles(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, hit);
-    } while (hit.face < 0 && t < end);
+        met = noCrossing(ray);
+        ivec3 left;
+        do {
+            left = walk.cell;
+            bool occupied = leaveCell(ray, mirrored, alive, walk.t, walk.cell);
+            nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, passed, met);
+            passed = noCrossing(ray);
+        } while (met.triangle < 0 && walk.t < walk.end);
+        // Behind a hole once more from its voxel on
+        hole = isHole(met);
+        passed = met;
+        if (hole) walk.cell = left;
+    } while (hole);
+    return met;
 }
 
 #if BLOCKING_TRIANGLES
-// Whether a ray that starts within the grid meets no triangle up to its tMax; `otherwise` where a software driver gave
-// up. Looks into every voxel on the way, not only those with faces towards the ray: single-sided sheets have none on
-// their back.
-bool reachesEndInGrid(Ray ray, float begin, bool otherwise) {
-    vec3 inverse = rayInverse(ray.direction);
-    bvec3 forward = greaterThan(ray.direction, vec3(0.0));
-    ivec3 last = gridSize() - 1;
-    bool alive = ray.tMax > 0.0;
-    float end = alive ? ray.tMax : -3e38;
-    float t = begin;
-    ivec3 cell = clamp(ivec3(floor(ray.origin + begin * ray.direction)), ivec3(0), last);
-    TriangleCrossing hit;
-    do {
-        COUNT_LOOKUP(alive ? 1 : 0);
-        bool emptyBrick = imageLoad(voxelBrickImage, STORED_BRICK(cell >> 2)).xy == uvec2(0u);
-        int record;
-        hit = nearestTriangle(cell, ray, alive && !emptyBrick, record);
+// A ray's own way through all voxels: not only those with faces towards it, as single-sided sheets have none on their back.
+struct VoxelWalk {
+    vec3 inverse;
+    bvec3 forward;
+    float t;
+    float end;
+    ivec3 cell;
+    ivec3 left;  // the last voxel on its way
+};
+const ivec3 kNoVoxel = ivec3(-1);
 
-        // Step through the exit plane of the brick or the voxel
-        int edge = emptyBrick ? 4 : 1;
-        ivec3 lower = cell & ~(edge - 1);
-        vec3 exits = (vec3(lower) + mix(vec3(0.0), vec3(edge), forward) - ray.origin) * inverse;
-        t = min(exits.x, min(exits.y, exits.z));
-        ivec3 next = clamp(ivec3(floor(ray.origin + t * ray.direction)), lower, lower + (edge - 1));
-        cell = mix(next, mix(lower - 1, lower + edge, forward), lessThanEqual(exits, vec3(t)));
-        end = all(equal(cell, clamp(cell, ivec3(0), last))) ? end : -3e38;
-        cell = clamp(cell, ivec3(0), last);
-    } while (hit.triangle < 0 && t < end);
-    return hit.triangle < 0 && (t >= end || otherwise);
+// Leaves a brick without voxels, or the place of a voxel, which is kept if there is one.
+void leaveVoxel(Ray ray, bool alive, inout VoxelWalk walk) {
+    ivec3 last = gridSize() - 1;
+    COUNT_LOOKUP(alive ? 1 : 0);
+    uvec2 word = imageLoad(voxelBrickImage, STORED_BRICK(walk.cell >> 2)).xy;
+    walk.left = brickHas(word, bitOfVoxel(walk.cell)) ? walk.cell : walk.left;
+    int edge = word == uvec2(0u) ? 4 : 1;
+    ivec3 lower = walk.cell & ~(edge - 1);
+    vec3 exits = (vec3(lower) + mix(vec3(0.0), vec3(edge), walk.forward) - ray.origin) * walk.inverse;
+    walk.t = min(exits.x, min(exits.y, exits.z));
+    ivec3 next = clamp(ivec3(floor(ray.origin + walk.t * ray.direction)), lower, lower + (edge - 1));
+    ivec3 cell = mix(next, mix(lower - 1, lower + edge, walk.forward), lessThanEqual(exits, vec3(walk.t)));
+    walk.cell = clamp(cell, ivec3(0), last);
+    walk.end = all(equal(cell, walk.cell)) ? walk.end : -3e38;
+}
+
+// Whether a ray that starts within the grid meets no triangle up to its tMax; `otherwise` where a software driver gave
+// up.
+bool reachesEndInGrid(Ray ray, float begin, bool otherwise) {
+    bool alive = ray.tMax > 0.0;
+    VoxelWalk walk = VoxelWalk(
+        rayInverse(ray.direction), greaterThan(ray.direction, vec3(0.0)), begin, alive ? ray.tMax : -3e38,
+        clamp(ivec3(floor(ray.origin + begin * ray.direction)), ivec3(0), gridSize() - 1), kNoVoxel);
+    int blocker = -1;
+    do {
+        // On to the next voxel
+        walk.left = kNoVoxel;
+        do leaveVoxel(ray, alive, walk);
+        while (walk.left == kNoVoxel && walk.t < walk.end);
+        findBlocker(max(walk.left, ivec3(0)), ray, walk.left != kNoVoxel && alive, blocker);
+    } while (blocker < 0 && walk.t < walk.end);
+    return blocker < 0 && (walk.t >= walk.end || otherwise);
 }
 
 bool reachesEnd(Ray ray, bool otherwise) {
@@ -323,16 +354,9 @@ TriangleCrossing traceTrianglesInGrid(Ray ray, out bool reached) {
     vec3 leave = (vec3(gridSize()) - mirrored.origin) * mirrored.inverse;
     bool alive = ray.tMax > 0.0;
     float end = alive ? min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax) : -3e38;
-    float t = 0.0;
-    ivec3 cell = clamp(ivec3(floor(mirrored.origin)), ivec3(0), last);
-    TriangleCrossing hit;
-    do {
-        ivec3 left = cell;
-        bool occupied = leaveCell(ray, mirrored, alive, t, cell);
-        int record;
-        hit = nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, record);
-    } while (hit.triangle < 0 && t < end);
-    reached = hit.triangle < 0 && t >= end;
+    TriangleWalk walk = TriangleWalk(0.0, end, clamp(ivec3(floor(mirrored.origin)), ivec3(0), last));
+    TriangleCrossing hit = nextTriangle(ray, mirrored, walk);
+    reached = hit.triangle < 0 && walk.t >= end;
     return hit;
 }
 
@@ -346,6 +370,19 @@ TriangleCrossing traceTriangles(Ray ray, out bool reached) {
 #else
     return traceTrianglesInGrid(ray, reached);
 #endif
+}
+#endif
+
+#if NEAR_TRIANGLES
+// Tests the triangles of the voxels that a ray enters before `end` (negative: none); moves t and the cell to
+// where it stops.
+void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, inout ivec3 cell,
+                       inout VoxelHit hit) {
+    TriangleWalk walk = TriangleWalk(t, end, cell);
+    TriangleCrossing met = nextTriangle(ray, mirrored, walk);
+    t = walk.t;
+    cell = walk.cell;
+    if (met.triangle >= 0) hit = hitOf(met);
 }
 #endif
 

@@ -50,6 +50,10 @@ struct TriangleCorners {
     bool twoSided;
 };
 
+uint triangleInstance(int triangle) {
+    return floatBitsToUint(texelFetch(voxelTriangles, 3 * triangle).w) & 0xffffffu;
+}
+
 TriangleCorners triangleCorners(int triangle) {
     vec4 first = texelFetch(voxelTriangles, 3 * triangle);
     uint flags = floatBitsToUint(first.w);
@@ -99,12 +103,30 @@ bool triangleCovers(int triangle, uint instance, vec3 barycentric) {
 
 // A crossing of a ray and a triangle.
 struct TriangleCrossing {
-    int triangle;
+    int triangle;  // -1: none
     float t;
     vec2 barycentric;
     vec3 normal;  // against the ray, not normalized
     bool turned;  // the other side of a two-sided triangle
+    int record;   // of the voxel
 };
+
+TriangleCrossing noCrossing(Ray ray) {
+    return TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0), false, 0);
+}
+
+// A ray passes where a texture leaves a hole; a shadow ray also through instances that cast none.
+bool isHole(TriangleCrossing c) {
+    int triangle = max(c.triangle, 0);
+    uint instance = triangleInstance(triangle);
+    vec3 barycentric = vec3(1.0 - c.barycentric.x - c.barycentric.y, c.barycentric);
+    bool covers = triangleCovers(triangle, instance, barycentric);
+#if BLOCKING_TRIANGLES
+    const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
+    covers = covers && (instances[instance].flags & asked) == INSTANCE_CASTS_SHADOW;
+#endif
+    return c.triangle >= 0 && !covers;
+}
 
 // The face of a record that holds most of a surface with this normal; its light stands for the triangle's.
 int faceOfNormal(uint record, vec3 normal) {
@@ -141,9 +163,31 @@ int faceOfSide(uint record, vec3 normal, bool turned) {
 }
 #endif
 
-// Intersects the triangle of one fragment; keeps the nearest crossing within the voxel. `toCenter`: from the
-// ray's origin to the voxel's centre.
-void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout TriangleCrossing nearest) {
+// The triangles of a voxel that are still to be tested.
+struct TriangleChain {
+    uint link;  // 0: none
+    int record;
+    vec3 toCenter;  // from the ray's origin to the voxel's centre
+};
+
+TriangleChain triangleChain(ivec3 voxel, Ray ray, bool wanted) {
+    uvec4 word = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2));
+    bool present = wanted && brickHas(word.xy, bitOfVoxel(voxel));
+    int record = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
+    COUNT_LOOKUP(wanted ? 2 : 0);
+    return TriangleChain(present ? texelFetch(voxelChains, record).x : 0u, record,
+                         vec3(voxel) + 0.5 - ray.origin);
+}
+
+// Intersects the first triangle of a chain; keeps the nearest crossing within the voxel but for that of `passed`, a hole,
+// and those before it. Moves on to the next.
+void testTriangle(inout TriangleChain chain, Ray ray, TriangleCrossing passed,
+                  inout TriangleCrossing nearest) {
+    COUNT_LOOKUP(chain.link != 0u ? 5 : 0);
+    bool valid = chain.link != 0u;
+    int slot = max(int(chain.link), 1) - 1;
+    uint next = texelFetch(voxelFragments, 2 * slot).x;
+    int triangle = int(texelFetch(voxelPairs, slot).x);
     TriangleCorners c = triangleCorners(triangle);
 #if NESTED_GRIDS
     c.origin = levelFromGrid(c.origin, levelOfRay);
@@ -158,65 +202,70 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
     vec2 barycentric = vec2(dot(fromCorner, p), dot(ray.direction, q)) * inverse;
     float t = dot(c.edge2, q) * inverse;
 #if BLOCKING_TRIANGLES
-    const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
-    bool faces =
-        abs(determinant) > kTriangleLeast && (instances[c.instance].flags & asked) == INSTANCE_CASTS_SHADOW;
+    bool faces = abs(determinant) > kTriangleLeast;
     // Where it is crossed does not matter: so a piece too small for a voxel counts in the next one.
     bool here = true;
 #else
-    vec3 offset = abs(t * ray.direction - toCenter);
+    vec3 offset = abs(t * ray.direction - chain.toCenter);
     bool here = max(offset.x, max(offset.y, offset.z)) <= 0.5 + kTriangleSide;
     bool faces = determinant > kTriangleLeast || (c.twoSided && determinant < -kTriangleLeast);
 #endif
-    bool hit = valid && faces && here && min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
+    bool behind = passed.triangle < 0 || t > passed.t || (t == passed.t && triangle > passed.triangle);
+    bool hit = valid && faces && here && behind && min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
                barycentric.x + barycentric.y <= 1.0 + kTriangleEdge && t > kTriangleStart &&
                (t < nearest.t || (t == nearest.t && triangle < nearest.triangle));
-    if (hit)
-        hit = triangleCovers(triangle, c.instance, vec3(1.0 - barycentric.x - barycentric.y, barycentric));
     nearest.t = hit ? t : nearest.t;
     nearest.triangle = hit ? triangle : nearest.triangle;
     nearest.barycentric = hit ? barycentric : nearest.barycentric;
     nearest.normal = hit ? cross(c.edge1, c.edge2) * sign(determinant) : nearest.normal;
     nearest.turned = hit ? determinant < 0.0 : nearest.turned;
+    nearest.record = hit ? chain.record : nearest.record;
+    chain.link = valid ? next : 0u;
 }
 
-// The nearest crossing of a ray with the triangles of a voxel, where `wanted`; `record`: that of the voxel.
-// Among equally near ones the first of the scene wins, whatever the order of the chain.
-TriangleCrossing nearestTriangle(ivec3 voxel, Ray ray, bool wanted, out int record) {
-    uvec4 word = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2));
-    bool present = wanted && brickHas(word.xy, bitOfVoxel(voxel));
-    record = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
-    uint link = present ? texelFetch(voxelChains, record).x : 0u;
-    COUNT_LOOKUP(wanted ? 2 : 0);
-    vec3 toCenter = vec3(voxel) + 0.5 - ray.origin;
-    TriangleCrossing nearest = TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0), false);
-#if EXECUTION_GPU
-    if (link == 0u) return nearest;
-#endif
-    do {
-        COUNT_LOOKUP(link != 0u ? 5 : 0);
-        int slot = max(int(link), 1) - 1;
-        uint next = texelFetch(voxelFragments, 2 * slot).x;
-        int triangle = int(texelFetch(voxelPairs, slot).x);
-        testTriangle(triangle, ray, toCenter, link != 0u, nearest);
-        link = link != 0u ? next : 0u;
 #if BLOCKING_TRIANGLES
-        if (nearest.triangle >= 0) link = 0u;  // any will do
+// A triangle of the voxel that is in the ray's way is kept in `blocker`.
+void findBlocker(ivec3 voxel, Ray ray, bool wanted, inout int blocker) {
+    TriangleChain chain = triangleChain(voxel, ray, wanted);
+    do {
+        TriangleCrossing met = noCrossing(ray);
+        do testTriangle(chain, ray, noCrossing(ray), met);
+        while (met.triangle < 0 && chain.link != 0u);
+        if (met.triangle >= 0 && !isHole(met)) blocker = met.triangle;
+    } while (blocker < 0 && chain.link != 0u);
+}
 #endif
-    } while (link != 0u);
-    return nearest;
+
+// The nearest crossing of a ray with the triangles of a voxel, where `wanted`, is kept in `nearest`, holes among them but for
+// that of `passed`. Among equally near ones the first of the scene wins, whatever the order of the chain.
+void nearestTriangle(ivec3 voxel, Ray ray, bool wanted, TriangleCrossing passed,
+                     inout TriangleCrossing nearest) {
+    TriangleChain chain = triangleChain(voxel, ray, wanted);
+#if EXECUTION_GPU
+    if (chain.link == 0u) return;
+#endif
+    do testTriangle(chain, ray, passed, nearest);
+    while (chain.link != 0u);
+}
+
+VoxelHit hitOf(TriangleCrossing c) {
+    uint record = texelFetch(voxelRecords, c.record).x;
+#if NEAR_TRIANGLES
+    return VoxelHit(faceOfSide(record, c.normal, c.turned), c.t, true, normalize(c.normal));
+#else
+    return VoxelHit(faceOfNormal(record, c.normal), c.t, c.triangle, c.barycentric);
+#endif
 }
 
 void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
-    int index;
-    TriangleCrossing nearest = nearestTriangle(voxel, ray, wanted, index);
-    if (nearest.triangle < 0) return;
-    uint record = texelFetch(voxelRecords, index).x;
-#if NEAR_TRIANGLES
-    hit = VoxelHit(faceOfSide(record, nearest.normal, nearest.turned), nearest.t, true,
-                   normalize(nearest.normal));
-#else
-    hit = VoxelHit(faceOfNormal(record, nearest.normal), nearest.t, nearest.triangle, nearest.barycentric);
-#endif
+    TriangleCrossing nearest, passed = noCrossing(ray);
+    bool hole;
+    do {
+        nearest = noCrossing(ray);
+        nearestTriangle(voxel, ray, wanted, passed, nearest);
+        hole = isHole(nearest);
+        passed = nearest;
+    } while (hole);
+    if (nearest.triangle >= 0) hit = hitOf(nearest);
 }
 #endif
