@@ -251,7 +251,7 @@ uint facingRay(bvec3 mirrored) {
     return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
 }
 
-#if NEAR_TRIANGLES
+#if NEAR_TRIANGLES || TRIANGLE_HITS
 // A walk from voxel to voxel with triangles.
 struct TriangleWalk {
     float t;
@@ -269,8 +269,11 @@ TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, inout TriangleWalk wa
         met = noCrossing(ray);
         ivec3 left;
         do {
-            left = walk.cell;
-            bool occupied = leaveCell(ray, mirrored, alive, walk.t, walk.cell);
+            bool occupied;
+            do {
+                left = walk.cell;
+                occupied = leaveCell(ray, mirrored, alive, walk.t, walk.cell);
+            } while (!occupied && walk.t < walk.end);
             nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, passed, met);
             passed = noCrossing(ray);
         } while (met.triangle < 0 && walk.t < walk.end);
@@ -282,6 +285,9 @@ TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, inout TriangleWalk wa
     return met;
 }
 
+#endif
+
+#if NEAR_TRIANGLES
 #if BLOCKING_TRIANGLES
 // A ray's own way through all voxels: not only those with faces towards it, as single-sided sheets have none on their back.
 struct VoxelWalk {
@@ -426,6 +432,14 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
 #endif
     if (hit.face >= 0 || t >= tEnd) return hit;
 #endif
+#if TRIANGLE_HITS
+    bool triangles = rayCone.width >= 0.0;
+    TriangleWalk walk = TriangleWalk(t, triangles ? tEnd : -3e38, cell);
+    TriangleCrossing met = nextTriangle(ray, mirrored, walk);
+    if (met.triangle >= 0) hit = hitOf(met);
+    alive = alive && !triangles;
+    tEnd = triangles ? -3e38 : tEnd;
+#endif
     do {
         // Step to the next voxel with faces towards the octant
         bool occupied;
@@ -438,11 +452,6 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
         // Test its surface
         ivec3 voxel = mix(left, last - left, mirrored.mirrored);
         uint tested = occupied && alive ? facing : 0u;
-#if TRIANGLE_HITS
-        bool triangles = rayCone.width >= 0.0;
-        testVoxelTriangles(voxel, ray, tested != 0u && triangles, hit);
-        tested = triangles ? 0u : tested;
-#endif
         testVoxelFaces(voxel, ray, tested, hit, hitCoverage);
     } while (hit.face < 0 && t < tEnd);
     return hit;

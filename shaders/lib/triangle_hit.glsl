@@ -256,16 +256,4 @@ VoxelHit hitOf(TriangleCrossing c) {
     return VoxelHit(faceOfNormal(record, c.normal), c.t, c.triangle, c.barycentric);
 #endif
 }
-
-void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
-    TriangleCrossing nearest, passed = noCrossing(ray);
-    bool hole;
-    do {
-        nearest = noCrossing(ray);
-        nearestTriangle(voxel, ray, wanted, passed, nearest);
-        hole = isHole(nearest);
-        passed = nearest;
-    } while (hole);
-    if (nearest.triangle >= 0) hit = hitOf(nearest);
-}
 #endif
