@@ -196,10 +196,20 @@ void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi,
     if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
 }
 
+// What all paths of a pixel begin with.
+struct GlassStart {
+    GlassSight sight;
+    GlassHit hit;
+    vec3 behind;  // what the picture shows without glass
+    uint seed;
+};
+
 // Follows a path. Returns the light that comes along it, less what paths before it have met on the same way and what a
 // ray is to bring from its `last` stretch. `sure`: chance has no part in it.
-vec3 followGlass(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint pixelSeed, vec3 behind,
-                 inout bool sure, inout GlassEnd last) {
+vec3 followGlass(GlassStart start, inout PathParts pathParts, inout bool sure, inout GlassEnd last) {
+    GlassSight sight = start.sight;
+    GlassHit hit = start.hit;
+    uint pixelSeed = start.seed;
     GlassPath path = GlassPath(sight.origin, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
     uint number = glassPass.firstPass + glassPass.pass;
     uint random = randomHash(pixelSeed ^ randomHash(number));
@@ -252,7 +262,7 @@ vec3 followGlass(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint
         goesOn = goesOn && !found;
     } while (goesOn && ++met < kMostGlass);
     if (ended && path.bent) last = GlassEnd(path, hit.triangle < 0 ? kOpen : hit.t, random);
-    return ended && !path.bent ? light + path.throughput * behind : light;
+    return ended && !path.bent ? light + path.throughput * start.behind : light;
 }
 
 void main() {
@@ -263,8 +273,8 @@ void main() {
     GlassSight sight = glassSight(pixel);
     GlassHit first = nearestGlass(sight.origin, sight.direction, sight.end, -1, true);
     if (first.triangle < 0) return;
-    vec4 behind = imageLoad(picture, pixel);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;
+    GlassStart start = GlassStart(sight, first, imageLoad(picture, pixel).rgb, seed);
     vec3 light = before.rgb;
     bool sure = true;
     PathParts pathParts = PathParts(0u, 0, 0);
@@ -273,7 +283,7 @@ void main() {
         // Paths up to one that needs a ray: it costs much, and is asked for in one place
         GlassEnd last = noStretch();
         do {
-            light += followGlass(first, sight, pathParts, seed, behind.rgb, sure, last);
+            light += followGlass(start, pathParts, sure, last);
             nextBranch(pathParts);
         } while (pathParts.known != kNoParts && ++paths < kMostPaths && last.end == kNoRay);
         if (last.end != kNoRay) light += lastStretch(last, sure);

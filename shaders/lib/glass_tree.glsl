@@ -219,17 +219,24 @@ float veilTransmittance(vec3 origin, vec3 direction, GlassHit hit) {
     return counts ? 1.0 - clamp(opacity, 0.0, 1.0) : 1.0;
 }
 
-// The next triangle between `near` and `end`, in the order of the tree.
-GlassHit nextGlass(inout GlassWalk walk, vec3 origin, vec3 direction, vec3 inverse, float near, float end,
-                   const bool veils) {
-    GlassHit next = GlassHit(-1, end, vec2(0.0), false);
+struct GlassRay {
+    vec3 origin;
+    vec3 direction;
+    float near;  // m, between which it meets glass
+    float end;
+};
+
+// The next triangle that it meets, in the order of the tree.
+GlassHit nextGlass(inout GlassWalk walk, GlassRay ray, const bool veils) {
+    vec3 inverse = glassInverse(ray.direction);
+    GlassHit next = GlassHit(-1, ray.end, vec2(0.0), false);
     do {
-        if (walk.first == walk.last) toGlassLeaf(walk, origin, inverse, end);
+        if (walk.first == walk.last) toGlassLeaf(walk, ray.origin, inverse, ray.end);
         if (walk.first < walk.last) {
             do {
-                GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
-                testGlassTriangle(int(walk.first), origin, direction, false, veils, hit);
-                if (hit.triangle >= 0 && hit.t > near) next = hit;
+                GlassHit hit = GlassHit(-1, ray.end, vec2(0.0), false);
+                testGlassTriangle(int(walk.first), ray.origin, ray.direction, false, veils, hit);
+                if (hit.triangle >= 0 && hit.t > ray.near) next = hit;
                 ++walk.first;
             } while (next.triangle < 0 && walk.first < walk.last);
         }
@@ -243,14 +250,13 @@ GlassHit nextGlass(inout GlassWalk walk, vec3 origin, vec3 direction, vec3 inver
 // rays meet in voxels, as cones for shadows do.
 vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, const bool ofLamp) {
     const bool kVeils = ofLamp && CONE_SHADOWS == 0;
-    vec3 inverse = glassInverse(direction);
     vec3 left = vec3(1.0);
     vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
     vec3 bend = vec3(0.0);
-    float near = kGlassNear * largestCoordinate(origin);
+    GlassRay ray = GlassRay(origin, direction, kGlassNear * largestCoordinate(origin), end);
     GlassWalk walk = GlassWalk(0u, 0u, 0u);
     do {
-        GlassHit hit = nextGlass(walk, origin, direction, inverse, near, end, kVeils);
+        GlassHit hit = nextGlass(walk, ray, kVeils);
         bool counts = hit.triangle >= 0;
         uint solid = counts && ofLamp ? glassTriangle(hit.triangle).solid : CAUSTIC_NO_SOLID;
         if (turnsAllLight(solid)) {

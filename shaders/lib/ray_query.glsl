@@ -215,35 +215,43 @@ OctantRay octantRay(Ray ray) {
                      1.0 / max(direction, vec3(1e-7)), mirrored, octant * gridBricks().x);
 }
 
-// Leaves `cell`: an empty cube of bricks, an empty block of 2^3 voxels, or one voxel. Moves t and the cell to
-// the exit. Returns whether the cell that was left holds faces towards the octant. `alive`: for the counters
-// alone.
-bool leaveCell(Ray ray, OctantRay mirrored, bool alive, inout float t, inout ivec3 cell) {
+// A walk through the cells of an octant.
+struct CellWalk {
+    float t;
+    ivec3 cell;
+    ivec3 left;  // the last cell on its way with faces towards the octant; kNoVoxel: none
+};
+const ivec3 kNoVoxel = ivec3(-1);
+
+// Leaves the cell: an empty cube of bricks, an empty block of 2^3 voxels, or one voxel. Moves t and the cell to the exit.
+// `alive`: others stay where they are. What changes depends on what it was: so it can be used behind a loop
+// (shaders/README.md, 5).
+void leaveCell(Ray ray, OctantRay mirrored, bool alive, inout CellWalk walk) {
     // Look up what the cell is part of
-    ivec3 brick = cell >> 2;
+    ivec3 brick = walk.cell >> 2;
     COUNT_LOOKUP(alive ? 1 : 0);
     uvec2 word = imageLoad(voxelOctants, STORED_BRICK(ivec3(brick.x + mirrored.octantX, brick.yz))).xy;
     bool empty = word.y == OCTANT_EMPTY;
-    bool occupied = !empty && brickHas(word, bitOfVoxel(cell));
-    uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
-    bool emptyBlock = (half32 >> ((cell.x & 2) + 4 * (cell.y & 2)) & 0x00330033u) == 0u;
+    bool occupied = !empty && brickHas(word, bitOfVoxel(walk.cell));
+    uint half32 = (walk.cell.z & 2) != 0 ? word.y : word.x;
+    bool emptyBlock = (half32 >> ((walk.cell.x & 2) + 4 * (walk.cell.y & 2)) & 0x00330033u) == 0u;
     int edge = empty ? 4 * int(word.x) : (emptyBlock ? 2 : 1);
 #ifdef RECORD_STEPS
     if (alive)
         RECORD_STEP(occupied ? STEP_TESTED : (edge > 1 ? STEP_EMPTY : STEP_VOXEL),
-                    worldFromGrid(GRID_POINT(ray.origin + t * ray.direction)),
-                    GRID_LENGTH(t) * grid.voxelSize, GRID_LENGTH(float(edge)) * grid.voxelSize,
+                    worldFromGrid(GRID_POINT(ray.origin + walk.t * ray.direction)),
+                    GRID_LENGTH(walk.t) * grid.voxelSize, GRID_LENGTH(float(edge)) * grid.voxelSize,
                     log2(float(edge)), vec3(0.0), 0.0, 0.0);
 #endif
 
     // Step through its exit plane
-    ivec3 border = (cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
+    walk.left = occupied && alive ? walk.cell : walk.left;
+    ivec3 border = (walk.cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
     vec3 exits = (vec3(border) - mirrored.origin) * mirrored.inverse;
-    t = min(exits.x, min(exits.y, exits.z));
+    walk.t = alive ? min(exits.x, min(exits.y, exits.z)) : walk.t;
     // Beyond the grid's border t is beyond the ray's end.
-    ivec3 next = clamp(ivec3(mirrored.origin + t * mirrored.direction), cell, border - 1);
-    cell = mix(next, border, lessThanEqual(exits, vec3(t)));
-    return occupied;
+    ivec3 next = clamp(ivec3(mirrored.origin + walk.t * mirrored.direction), walk.cell, border - 1);
+    walk.cell = alive ? mix(next, border, lessThanEqual(exits, vec3(walk.t))) : walk.cell;
 }
 
 // Directions of faces that look against a ray: -k where the component along k is not negative.
@@ -252,39 +260,30 @@ uint facingRay(bvec3 mirrored) {
 }
 
 #if NEAR_TRIANGLES || TRIANGLE_HITS
-// A walk from voxel to voxel with triangles.
-struct TriangleWalk {
-    float t;
-    float end;  // it stops there; negative: it sees nothing
-    ivec3 cell;
-};
-
-// On to the first triangle that is no hole there.
-TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, inout TriangleWalk walk) {
+// On to the first triangle before `end` that is no hole; negative: none.
+TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, float end, inout CellWalk walk) {
     ivec3 last = gridSize() - 1;
-    bool alive = walk.end >= 0.0;
+    bool alive = end >= 0.0;
     TriangleCrossing met, passed = noCrossing(ray);
     bool hole;
     do {
         met = noCrossing(ray);
-        ivec3 left;
         do {
-            bool occupied;
-            do {
-                left = walk.cell;
-                occupied = leaveCell(ray, mirrored, alive, walk.t, walk.cell);
-            } while (!occupied && walk.t < walk.end);
-            nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, passed, met);
+            walk.left = kNoVoxel;
+            do leaveCell(ray, mirrored, alive, walk);
+            while (walk.left.x < 0 && walk.t < end);
+            bool any = walk.left.x >= 0;
+            ivec3 left = any ? walk.left : ivec3(0);
+            nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, any, passed, met);
             passed = noCrossing(ray);
-        } while (met.triangle < 0 && walk.t < walk.end);
+        } while (met.triangle < 0 && walk.t < end);
         // Behind a hole once more from its voxel on
         hole = isHole(met);
         passed = met;
-        if (hole) walk.cell = left;
+        if (hole) walk.cell = walk.left;
     } while (hole);
     return met;
 }
-
 #endif
 
 #if NEAR_TRIANGLES
@@ -296,9 +295,8 @@ struct VoxelWalk {
     float t;
     float end;
     ivec3 cell;
-    ivec3 left;  // the last voxel on its way
+    ivec3 left;  // the last voxel on its way; kNoVoxel: none
 };
-const ivec3 kNoVoxel = ivec3(-1);
 
 // Leaves a brick without voxels, or the place of a voxel, which is kept if there is one.
 void leaveVoxel(Ray ray, bool alive, inout VoxelWalk walk) {
@@ -309,7 +307,7 @@ void leaveVoxel(Ray ray, bool alive, inout VoxelWalk walk) {
     int edge = word == uvec2(0u) ? 4 : 1;
     ivec3 lower = walk.cell & ~(edge - 1);
     vec3 exits = (vec3(lower) + mix(vec3(0.0), vec3(edge), walk.forward) - ray.origin) * walk.inverse;
-    walk.t = min(exits.x, min(exits.y, exits.z));
+    walk.t = alive ? min(exits.x, min(exits.y, exits.z)) : walk.t;
     ivec3 next = clamp(ivec3(floor(ray.origin + walk.t * ray.direction)), lower, lower + (edge - 1));
     ivec3 cell = mix(next, mix(lower - 1, lower + edge, walk.forward), lessThanEqual(exits, vec3(walk.t)));
     walk.cell = clamp(cell, ivec3(0), last);
@@ -328,8 +326,8 @@ bool reachesEndInGrid(Ray ray, float begin, bool otherwise) {
         // On to the next voxel
         walk.left = kNoVoxel;
         do leaveVoxel(ray, alive, walk);
-        while (walk.left == kNoVoxel && walk.t < walk.end);
-        findBlocker(max(walk.left, ivec3(0)), ray, walk.left != kNoVoxel && alive, blocker);
+        while (walk.left.x < 0 && walk.t < walk.end);
+        findBlocker(max(walk.left, ivec3(0)), ray, walk.left.x >= 0 && alive, blocker);
     } while (blocker < 0 && walk.t < walk.end);
     return blocker < 0 && (walk.t >= walk.end || otherwise);
 }
@@ -360,8 +358,8 @@ TriangleCrossing traceTrianglesInGrid(Ray ray, out bool reached) {
     vec3 leave = (vec3(gridSize()) - mirrored.origin) * mirrored.inverse;
     bool alive = ray.tMax > 0.0;
     float end = alive ? min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax) : -3e38;
-    TriangleWalk walk = TriangleWalk(0.0, end, clamp(ivec3(floor(mirrored.origin)), ivec3(0), last));
-    TriangleCrossing hit = nextTriangle(ray, mirrored, walk);
+    CellWalk walk = CellWalk(0.0, clamp(ivec3(floor(mirrored.origin)), ivec3(0), last), kNoVoxel);
+    TriangleCrossing hit = nextTriangle(ray, mirrored, end, walk);
     reached = hit.triangle < 0 && walk.t >= end;
     return hit;
 }
@@ -379,15 +377,11 @@ TriangleCrossing traceTriangles(Ray ray, out bool reached) {
 }
 #endif
 
-#if NEAR_TRIANGLES
-// Tests the triangles of the voxels that a ray enters before `end` (negative: none); moves t and the cell to
-// where it stops.
-void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, inout ivec3 cell,
-                       inout VoxelHit hit) {
-    TriangleWalk walk = TriangleWalk(t, end, cell);
-    TriangleCrossing met = nextTriangle(ray, mirrored, walk);
-    t = walk.t;
-    cell = walk.cell;
+#if NEAR_TRIANGLES || TRIANGLE_HITS
+// Tests the triangles of the voxels that a ray enters before `end`, and goes to where it stops. Negative: none, and it
+// stays.
+void testTriangles(Ray ray, OctantRay mirrored, float end, inout CellWalk walk, inout VoxelHit hit) {
+    TriangleCrossing met = nextTriangle(ray, mirrored, end, walk);
     if (met.triangle >= 0) hit = hitOf(met);
 }
 #endif
@@ -423,37 +417,33 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
+    CellWalk walk = CellWalk(t, cell, kNoVoxel);
     float hitCoverage = 0.0;
 #if NEAR_TRIANGLES
 #if NESTED_GRIDS
-    if (nearEnd > tEnter) testNearTriangles(ray, mirrored, min(tEnd, nearEnd), t, cell, hit);
+    if (nearEnd > tEnter) testTriangles(ray, mirrored, min(tEnd, nearEnd), walk, hit);
 #else
-    testNearTriangles(ray, mirrored, min(tEnd, kRayNearReach), t, cell, hit);
+    testTriangles(ray, mirrored, min(tEnd, kRayNearReach), walk, hit);
 #endif
-    if (hit.face >= 0 || t >= tEnd) return hit;
+    if (hit.face >= 0 || walk.t >= tEnd) return hit;
 #endif
 #if TRIANGLE_HITS
     bool triangles = rayCone.width >= 0.0;
-    TriangleWalk walk = TriangleWalk(t, triangles ? tEnd : -3e38, cell);
-    TriangleCrossing met = nextTriangle(ray, mirrored, walk);
-    if (met.triangle >= 0) hit = hitOf(met);
+    testTriangles(ray, mirrored, triangles ? tEnd : -3e38, walk, hit);
     alive = alive && !triangles;
     tEnd = triangles ? -3e38 : tEnd;
 #endif
     do {
         // Step to the next voxel with faces towards the octant
-        bool occupied;
-        ivec3 left;
-        do {
-            left = cell;
-            occupied = leaveCell(ray, mirrored, alive, t, cell);
-        } while (!occupied && t < tEnd);
+        walk.left = kNoVoxel;
+        do leaveCell(ray, mirrored, alive, walk);
+        while (walk.left.x < 0 && walk.t < tEnd);
 
         // Test its surface
-        ivec3 voxel = mix(left, last - left, mirrored.mirrored);
-        uint tested = occupied && alive ? facing : 0u;
-        testVoxelFaces(voxel, ray, tested, hit, hitCoverage);
-    } while (hit.face < 0 && t < tEnd);
+        bool any = walk.left.x >= 0;
+        ivec3 left = any ? walk.left : ivec3(0);
+        testVoxelFaces(mix(left, last - left, mirrored.mirrored), ray, any ? facing : 0u, hit, hitCoverage);
+    } while (hit.face < 0 && walk.t < tEnd);
     return hit;
 }
 
