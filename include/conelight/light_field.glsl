@@ -229,21 +229,29 @@ conelight_OctantRay conelight_octantRay(conelight_Ray ray) {
                                1.0 / max(direction, vec3(1e-7)), mirrored, octant * conelight_gridBricks().x);
 }
 
-bool conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive, inout float t,
-                         inout ivec3 cell) {
-    ivec3 brick = cell >> 2;
+struct conelight_CellWalk {
+    float t;
+    ivec3 cell;
+    ivec3 left;
+};
+
+const ivec3 conelight_kNoVoxel = ivec3(-1);
+
+void conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive,
+                         inout conelight_CellWalk walk) {
+    ivec3 brick = walk.cell >> 2;
     uvec2 word = texelFetch(conelight_voxelOctants, (ivec3(brick.x + mirrored.octantX, brick.yz)), 0).xy;
     bool empty = word.y == 0x9d2c5681u;
-    bool occupied = !empty && conelight_brickHas(word, conelight_bitOfVoxel(cell));
-    uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
-    bool emptyBlock = (half32 >> ((cell.x & 2) + 4 * (cell.y & 2)) & 0x00330033u) == 0u;
+    bool occupied = !empty && conelight_brickHas(word, conelight_bitOfVoxel(walk.cell));
+    uint half32 = (walk.cell.z & 2) != 0 ? word.y : word.x;
+    bool emptyBlock = (half32 >> ((walk.cell.x & 2) + 4 * (walk.cell.y & 2)) & 0x00330033u) == 0u;
     int edge = empty ? 4 * int(word.x) : (emptyBlock ? 2 : 1);
-    ivec3 border = (cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
+    walk.left = occupied && alive ? walk.cell : walk.left;
+    ivec3 border = (walk.cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
     vec3 exits = (vec3(border) - mirrored.origin) * mirrored.inverse;
-    t = min(exits.x, min(exits.y, exits.z));
-    ivec3 next = clamp(ivec3(mirrored.origin + t * mirrored.direction), cell, border - 1);
-    cell = mix(next, border, lessThanEqual(exits, vec3(t)));
-    return occupied;
+    walk.t = alive ? min(exits.x, min(exits.y, exits.z)) : walk.t;
+    ivec3 next = clamp(ivec3(mirrored.origin + walk.t * mirrored.direction), walk.cell, border - 1);
+    walk.cell = alive ? mix(next, border, lessThanEqual(exits, vec3(walk.t))) : walk.cell;
 }
 
 uint conelight_facingRay(bvec3 mirrored) {
@@ -264,18 +272,17 @@ conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
+    conelight_CellWalk walk = conelight_CellWalk(t, cell, conelight_kNoVoxel);
     float hitCoverage = 0.0;
     do {
-        bool occupied;
-        ivec3 left;
-        do {
-            left = cell;
-            occupied = conelight_leaveCell(ray, mirrored, alive, t, cell);
-        } while (!occupied && t < tEnd);
-        ivec3 voxel = mix(left, last - left, mirrored.mirrored);
-        uint tested = occupied && alive ? facing : 0u;
-        conelight_testVoxelFaces(voxel, ray, tested, hit, hitCoverage);
-    } while (hit.face < 0 && t < tEnd);
+        walk.left = conelight_kNoVoxel;
+        do conelight_leaveCell(ray, mirrored, alive, walk);
+        while (walk.left.x < 0 && walk.t < tEnd);
+        bool any = walk.left.x >= 0;
+        ivec3 left = any ? walk.left : ivec3(0);
+        conelight_testVoxelFaces(mix(left, last - left, mirrored.mirrored), ray, any ? facing : 0u, hit,
+                                 hitCoverage);
+    } while (hit.face < 0 && walk.t < tEnd);
     return hit;
 }
 

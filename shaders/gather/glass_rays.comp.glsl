@@ -197,7 +197,7 @@ void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi,
 }
 
 // What all paths of a pixel begin with.
-struct GlassStart {
+struct GlassPixel {
     GlassSight sight;
     GlassHit hit;
     vec3 behind;  // what the picture shows without glass
@@ -206,7 +206,7 @@ struct GlassStart {
 
 // Follows a path. Returns the light that comes along it, less what paths before it have met on the same way and what a
 // ray is to bring from its `last` stretch. `sure`: chance has no part in it.
-vec3 followGlass(GlassStart start, inout PathParts pathParts, inout bool sure, inout GlassEnd last) {
+vec3 followGlass(GlassPixel start, inout PathParts pathParts, inout bool sure, inout GlassEnd last) {
     GlassSight sight = start.sight;
     GlassHit hit = start.hit;
     uint pixelSeed = start.seed;
@@ -274,7 +274,7 @@ void main() {
     GlassHit first = nearestGlass(sight.origin, sight.direction, sight.end, -1, true);
     if (first.triangle < 0) return;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;
-    GlassStart start = GlassStart(sight, first, imageLoad(picture, pixel).rgb, seed);
+    GlassPixel start = GlassPixel(sight, first, imageLoad(picture, pixel).rgb, seed);
     vec3 light = before.rgb;
     bool sure = true;
     PathParts pathParts = PathParts(0u, 0, 0);
