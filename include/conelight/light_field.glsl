@@ -229,7 +229,7 @@ conelight_OctantRay conelight_octantRay(conelight_Ray ray) {
                                1.0 / max(direction, vec3(1e-7)), mirrored, octant * conelight_gridBricks().x);
 }
 
-struct conelight_CellWalk {
+struct conelight_OctantWalk {
     float t;
     ivec3 cell;
     ivec3 left;
@@ -238,7 +238,7 @@ struct conelight_CellWalk {
 const ivec3 conelight_kNoVoxel = ivec3(-1);
 
 void conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive,
-                         inout conelight_CellWalk walk) {
+                         inout conelight_OctantWalk walk) {
     ivec3 brick = walk.cell >> 2;
     uvec2 word = texelFetch(conelight_voxelOctants, (ivec3(brick.x + mirrored.octantX, brick.yz)), 0).xy;
     bool empty = word.y == 0x9d2c5681u;
@@ -272,7 +272,7 @@ conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
-    conelight_CellWalk walk = conelight_CellWalk(t, cell, conelight_kNoVoxel);
+    conelight_OctantWalk walk = conelight_OctantWalk(t, cell, conelight_kNoVoxel);
     float hitCoverage = 0.0;
     do {
         walk.left = conelight_kNoVoxel;

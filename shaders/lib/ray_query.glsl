@@ -216,7 +216,7 @@ OctantRay octantRay(Ray ray) {
 }
 
 // A walk through the cells of an octant.
-struct CellWalk {
+struct OctantWalk {
     float t;
     ivec3 cell;
     ivec3 left;  // the last cell on its way with faces towards the octant; kNoVoxel: none
@@ -226,7 +226,7 @@ const ivec3 kNoVoxel = ivec3(-1);
 // Leaves the cell: an empty cube of bricks, an empty block of 2^3 voxels, or one voxel. Moves t and the cell to the exit.
 // `alive`: others stay where they are. What changes depends on what it was: so it can be used behind a loop
 // (shaders/README.md, 5).
-void leaveCell(Ray ray, OctantRay mirrored, bool alive, inout CellWalk walk) {
+void leaveCell(Ray ray, OctantRay mirrored, bool alive, inout OctantWalk walk) {
     // Look up what the cell is part of
     ivec3 brick = walk.cell >> 2;
     COUNT_LOOKUP(alive ? 1 : 0);
@@ -261,7 +261,7 @@ uint facingRay(bvec3 mirrored) {
 
 #if NEAR_TRIANGLES || TRIANGLE_HITS
 // On to the first triangle before `end` that is no hole; negative: none.
-TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, float end, inout CellWalk walk) {
+TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, float end, inout OctantWalk walk) {
     ivec3 last = gridSize() - 1;
     bool alive = end >= 0.0;
     TriangleCrossing met, passed = noCrossing(ray);
@@ -358,7 +358,7 @@ TriangleCrossing traceTrianglesInGrid(Ray ray, out bool reached) {
     vec3 leave = (vec3(gridSize()) - mirrored.origin) * mirrored.inverse;
     bool alive = ray.tMax > 0.0;
     float end = alive ? min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax) : -3e38;
-    CellWalk walk = CellWalk(0.0, clamp(ivec3(floor(mirrored.origin)), ivec3(0), last), kNoVoxel);
+    OctantWalk walk = OctantWalk(0.0, clamp(ivec3(floor(mirrored.origin)), ivec3(0), last), kNoVoxel);
     TriangleCrossing hit = nextTriangle(ray, mirrored, end, walk);
     reached = hit.triangle < 0 && walk.t >= end;
     return hit;
@@ -380,7 +380,7 @@ TriangleCrossing traceTriangles(Ray ray, out bool reached) {
 #if NEAR_TRIANGLES || TRIANGLE_HITS
 // Tests the triangles of the voxels that a ray enters before `end`, and goes to where it stops. Negative: none, and it
 // stays.
-void testTriangles(Ray ray, OctantRay mirrored, float end, inout CellWalk walk, inout VoxelHit hit) {
+void testTriangles(Ray ray, OctantRay mirrored, float end, inout OctantWalk walk, inout VoxelHit hit) {
     TriangleCrossing met = nextTriangle(ray, mirrored, end, walk);
     if (met.triangle >= 0) hit = hitOf(met);
 }
@@ -417,7 +417,7 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
-    CellWalk walk = CellWalk(t, cell, kNoVoxel);
+    OctantWalk walk = OctantWalk(t, cell, kNoVoxel);
     float hitCoverage = 0.0;
 #if NEAR_TRIANGLES
 #if NESTED_GRIDS

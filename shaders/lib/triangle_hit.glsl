@@ -227,6 +227,9 @@ void testTriangle(inout TriangleChain chain, Ray ray, TriangleCrossing passed,
 // A triangle of the voxel that is in the ray's way is kept in `blocker`.
 void findBlocker(ivec3 voxel, Ray ray, bool wanted, inout int blocker) {
     TriangleChain chain = triangleChain(voxel, ray, wanted);
+#if EXECUTION_GPU
+    if (chain.link == 0u) return;
+#endif
     do {
         TriangleCrossing met = noCrossing(ray);
         do testTriangle(chain, ray, noCrossing(ray), met);
