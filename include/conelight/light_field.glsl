@@ -254,6 +254,16 @@ void conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool a
     walk.cell = alive ? mix(next, border, lessThanEqual(exits, vec3(walk.t))) : walk.cell;
 }
 
+ivec3 conelight_nextVoxel(conelight_Ray ray, conelight_OctantRay mirrored, bool alive, float end,
+                          inout conelight_OctantWalk walk) {
+    ivec3 last = conelight_gridSize() - 1;
+    walk.left = conelight_kNoVoxel;
+    do conelight_leaveCell(ray, mirrored, alive, walk);
+    while (walk.left.x < 0 && walk.t < end);
+    ivec3 left = max(walk.left, ivec3(0));
+    return mix(left, last - left, mirrored.mirrored);
+}
+
 uint conelight_facingRay(bvec3 mirrored) {
     return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
 }
@@ -275,13 +285,8 @@ conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
     conelight_OctantWalk walk = conelight_OctantWalk(t, cell, conelight_kNoVoxel);
     float hitCoverage = 0.0;
     do {
-        walk.left = conelight_kNoVoxel;
-        do conelight_leaveCell(ray, mirrored, alive, walk);
-        while (walk.left.x < 0 && walk.t < tEnd);
-        bool any = walk.left.x >= 0;
-        ivec3 left = any ? walk.left : ivec3(0);
-        conelight_testVoxelFaces(mix(left, last - left, mirrored.mirrored), ray, any ? facing : 0u, hit,
-                                 hitCoverage);
+        ivec3 voxel = conelight_nextVoxel(ray, mirrored, alive, tEnd, walk);
+        conelight_testVoxelFaces(voxel, ray, walk.left.x >= 0 ? facing : 0u, hit, hitCoverage);
     } while (hit.face < 0 && walk.t < tEnd);
     return hit;
 }

@@ -254,6 +254,17 @@ void leaveCell(Ray ray, OctantRay mirrored, bool alive, inout OctantWalk walk) {
     walk.cell = alive ? mix(next, border, lessThanEqual(exits, vec3(walk.t))) : walk.cell;
 }
 
+// On to the next voxel with faces towards the octant; walk.left is kNoVoxel where there is none before `end`, and what is
+// returned any voxel.
+ivec3 nextVoxel(Ray ray, OctantRay mirrored, bool alive, float end, inout OctantWalk walk) {
+    ivec3 last = gridSize() - 1;
+    walk.left = kNoVoxel;
+    do leaveCell(ray, mirrored, alive, walk);
+    while (walk.left.x < 0 && walk.t < end);
+    ivec3 left = max(walk.left, ivec3(0));
+    return mix(left, last - left, mirrored.mirrored);
+}
+
 // Directions of faces that look against a ray: -k where the component along k is not negative.
 uint facingRay(bvec3 mirrored) {
     return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
@@ -262,19 +273,14 @@ uint facingRay(bvec3 mirrored) {
 #if NEAR_TRIANGLES || TRIANGLE_HITS
 // On to the first triangle before `end` that is no hole; negative: none.
 TriangleCrossing nextTriangle(Ray ray, OctantRay mirrored, float end, inout OctantWalk walk) {
-    ivec3 last = gridSize() - 1;
     bool alive = end >= 0.0;
     TriangleCrossing met, passed = noCrossing(ray);
     bool hole;
     do {
         met = noCrossing(ray);
         do {
-            walk.left = kNoVoxel;
-            do leaveCell(ray, mirrored, alive, walk);
-            while (walk.left.x < 0 && walk.t < end);
-            bool any = walk.left.x >= 0;
-            ivec3 left = any ? walk.left : ivec3(0);
-            nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, any, passed, met);
+            ivec3 voxel = nextVoxel(ray, mirrored, alive, end, walk);
+            nearestTriangle(voxel, ray, walk.left.x >= 0, passed, met);
             passed = noCrossing(ray);
         } while (met.triangle < 0 && walk.t < end);
         // Behind a hole once more from its voxel on
@@ -434,15 +440,8 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
     tEnd = triangles ? -3e38 : tEnd;
 #endif
     do {
-        // Step to the next voxel with faces towards the octant
-        walk.left = kNoVoxel;
-        do leaveCell(ray, mirrored, alive, walk);
-        while (walk.left.x < 0 && walk.t < tEnd);
-
-        // Test its surface
-        bool any = walk.left.x >= 0;
-        ivec3 left = any ? walk.left : ivec3(0);
-        testVoxelFaces(mix(left, last - left, mirrored.mirrored), ray, any ? facing : 0u, hit, hitCoverage);
+        ivec3 voxel = nextVoxel(ray, mirrored, alive, tEnd, walk);
+        testVoxelFaces(voxel, ray, walk.left.x >= 0 ? facing : 0u, hit, hitCoverage);
     } while (hit.face < 0 && walk.t < tEnd);
     return hit;
 }
