@@ -9,6 +9,7 @@
 #include "reference/ray_scene.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
+#include "support/scenes.h"
 #include "voxels/octant_words.h"
 #include "voxels/surface_voxels.h"
 
@@ -22,8 +23,8 @@ struct TestRay {
 
 class ShadowRaysTest : public GlTest {
   protected:
-    void expectAgreement(const std::string& name) {
-        const Scene scene = io::loadScene("builtin:" + name);
+    void expectAgreement(const std::string& name) { expectAgreement(io::loadScene("builtin:" + name), 4); }
+    void expectAgreement(const Scene& scene, int mostWrong) {
         const scene::GpuScene gpuScene(scene);
         voxels::SurfaceVoxels surface;
         surface.build(device(), gpuScene, VoxelSettings{96});
@@ -50,7 +51,7 @@ class ShadowRaysTest : public GlTest {
             wrong += meets != (told[2 * i].x == 0.0f) ? 1 : 0;
         }
         // Edges are met or not by rounding.
-        EXPECT_LE(wrong, 4) << name << ", of " << rays.size();
+        EXPECT_LE(wrong, mostWrong) << "of " << rays.size();
         EXPECT_GT(blocked, 2000);
     }
 
@@ -86,8 +87,33 @@ void main() {
 
 TEST_F(ShadowRaysTest, MeetWhatPathsMeetInAStudy) { expectAgreement("study"); }
 TEST_F(ShadowRaysTest, MeetWhatPathsMeetAmongHuts) { expectAgreement("lamps?count=100"); }
-// With leaves cut out of quads by their texture.
 TEST_F(ShadowRaysTest, MeetWhatPathsMeetInAYard) { expectAgreement("yard"); }
+
+// Sheets behind one another, several in a voxel, half of each cut away by its texture.
+TEST_F(ShadowRaysTest, PassTheHolesOfSheets) {
+    Scene scene;
+    Texture cut;
+    cut.width = cut.height = 64;
+    cut.srgb = false;
+    for (int i = 0; i < 64 * 64; ++i)
+        for (const int value : {255, 255, 255, i % 64 < 32 ? 255 : 0})
+            cut.rgba.push_back(static_cast<std::uint8_t>(value));
+    scene.textures.push_back(cut);
+    Material sheet;
+    sheet.doubleSided = true;
+    sheet.alphaMode = AlphaMode::Mask;
+    sheet.baseColorTexture.texture = 0;
+    std::mt19937 random(3);
+    const auto next = [&] { return static_cast<float>(random()) * 0x1p-31f - 1; };
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 u = 0.3f * glm::normalize(glm::vec3(next(), next(), next()));
+        const glm::vec3 v = 0.3f * glm::normalize(glm::cross(u, glm::vec3(next(), next(), next())));
+        addInstance(scene, quadMesh(glm::vec3(next(), next(), next()), u, v), sheet);
+        scene.meshes.back().uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    }
+    // Where textures are cut, filters decide.
+    expectAgreement(scene, 20);
+}
 
 }  // namespace
 }  // namespace conelight::test
