@@ -9,7 +9,7 @@
 // colour it is does not matter where all have settled.
 float cachedShare;
 vec3 gatheredCached;  // what of the estimate is cached light
-// The same by cosine-sampled rays alone. They have no noise in common: all faces draw light samples from one pool.
+// The same by cosine-sampled rays alone. They have no noise in common: faces of a cell draw light samples from the same pools.
 vec3 returnedCached;
 
 #define CACHED_SHARE(value) cachedShare = value

@@ -103,14 +103,14 @@ struct SampledRay {
 
 // Ray `i` of an estimate: cosine-sampled ones first, then light-sampled ones.
 SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceState sequence, int i,
-                     float inverseFlux) {
+                     LightRow lights) {
     bool lightSampled = i >= settings.cosineSamples;
 
     // Sample a point on a light face
     uint lightIndex = sequence.index * uint(settings.lightSamples) + uint(max(i - settings.cosineSamples, 0));
     vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + shiftOf(sequence).zxy);
 #if ENVIRONMENT
-    float skyShare = skySampleShare(inverseFlux);
+    float skyShare = skySampleShare(lights.inverseFlux);
     bool towardsSky = lightSampled && xiLight.x < skyShare;
     vec3 skyDirection = environmentDirection(vec2(xiLight.x / skyShare, xiLight.y));
     xiLight.x = max(xiLight.x - skyShare, 0.0) / max(1.0 - skyShare, 1e-6);
@@ -118,7 +118,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
     const bool towardsSky = false;
 #endif
     LightSample light = LightSample(-1, point.origin, vec3(0.0));
-    if (EXECUTION_GPU == 0 || lightSampled) light = sampleLightFace(xiLight, point.origin);
+    if (EXECUTION_GPU == 0 || lightSampled) light = sampleLightFace(xiLight, point.origin, lights);
     vec3 toLight = light.point - point.origin;
     float lightDistance = length(toLight);
 
@@ -136,7 +136,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
     float cosine = dot(direction, point.shadingNormal);
     bool valid = cosine > 0.0 && dot(direction, point.geometricNormal) > 0.0;
     valid = valid && (!lightSampled || towardsSky ||
-                      (light.face >= 0 && dot(direction, light.normal) < 0.0 && inverseFlux > 0.0));
+                      (light.face >= 0 && dot(direction, light.normal) < 0.0 && lights.inverseFlux > 0.0));
 
     // End a light-sampled ray behind its point
     bool ends = lightSampled && !towardsSky;
@@ -159,9 +159,9 @@ bool reachesItsLight(SampledRay drawn, VoxelHit hit) {
 
 // Density per steradian among light-sampled rays, given what the ray hit; `skyPdf`: of its direction among those
 // that go to the surroundings.
-float lightPdf(Ray ray, VoxelHit hit, float inverseFlux, float skyPdf) {
-    float skyShare = skySampleShare(inverseFlux);
-    float pdf = (1.0 - skyShare) * lightFacePdf(ray, hit, inverseFlux);
+float lightPdf(Ray ray, VoxelHit hit, LightRow lights, float skyPdf) {
+    float skyShare = skySampleShare(lights.inverseFlux);
+    float pdf = (1.0 - skyShare) * lightFacePdf(ray, hit, lights);
     pdf = hit.face >= 0 ? pdf : skyShare * skyPdf;
 #if NEAR_TRIANGLES
     pdf = hit.near ? 0.0 : pdf;
@@ -174,7 +174,7 @@ float lightPdf(Ray ray, VoxelHit hit, float inverseFlux, float skyPdf) {
 // is one. A miss sees the sky. backFaceShare: share of cosine-sampled rays that passed a back face.
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
-    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
+    LightRow lights = lightRowAt(point.origin, point.geometricNormal);
     uint random = randomHash(sequence.ofBounces) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
     BEGIN_CACHED();
@@ -184,8 +184,8 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
     do {
         // Draw a ray
         bool lightSampled = i >= settings.cosineSamples;
-        SampledRay drawn = sampleRay(point, settings, sequence, i, inverseFlux);
-        COUNT_LOOKUP(lightSampled ? 2 : 0);  // the light sample and its record
+        SampledRay drawn = sampleRay(point, settings, sequence, i, lights);
+        COUNT_LOOKUP(lightSampled ? 3 : 0);  // its cluster, the light sample and its record
 
         // Intersect the voxels and follow glossy bounces
         VoxelHit hit;
@@ -213,7 +213,7 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         // Compute the MIS weight: both techniques' densities for this direction
         bool reached = !lightSampled || reachesItsLight(drawn, hit);
         float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +
-                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, inverseFlux, skyPdf);
+                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, lights, skyPdf);
         float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);
 
         // Add the contribution

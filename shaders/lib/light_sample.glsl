@@ -1,14 +1,39 @@
 // SPDX-License-Identifier: MIT
 // Light sampling of voxel faces (next-event estimation): random numbers -> a point on a light face, and the
-// density of that choice (4.11). Faces are drawn in proportion to their flux from the candidate list that
-// light/cache_pool.comp.glsl fills. Part of lib/voxel_light.glsl.
+// density of that choice (4.11). Faces are drawn by their flux and by where they are (lib/light_cells.glsl). Part of
+// lib/voxel_light.glsl.
 #include "lib/dot.glsl"
+#include "lib/light_cells.glsl"
 
-// One light sample in this many uses bounds that are moved the other way (lightSampleBounds). Without them
-// only cosine-sampled rays would find the rim of a light face that ends at a voxel's side: white dots far
-// away from it, because one such ray carries as much as a hundred light-sampled ones. A smaller number wastes
-// more rays.
-const int kMovedBoundsPeriod = 16;
+// What light samples are drawn from at a place.
+struct LightRow {
+    uint row;  // place of its cell's row
+    LightBounds cell;
+    float scale;        // shareOfCluster
+    float inverseFlux;  // of all faces; 0: nothing sends light
+};
+
+LightRow lightRowAt(vec3 point, vec3 normal) {
+    vec3 shift = uintBitsToFloat(
+        uvec3(texelFetch(lightSamples, 1).x, texelFetch(lightSamples, 2).x, texelFetch(lightSamples, 3).x));
+    LightCell cell = cellAt(point, normal, shift);
+    LightBounds box = lightBounds(cell, texelFetch(lightSamples, LIGHT_CELL_EXTENTS_AT + cell.row).x);
+    uint place = texelFetch(lightSamples, LIGHT_PLACES_AT + cell.row).x;  // 0: of all
+    return LightRow(place, box, uintBitsToFloat(texelFetch(lightSamples, LIGHT_SCALES_AT + cell.row).x),
+                    uintBitsToFloat(texelFetch(lightSamples, 0).x));
+}
+
+// A random entry of the pool of a random cluster of a row: a face, and LIGHT_MOVED. Evenly spread numbers are spread over
+// the scene, those of one cluster over its pool.
+uint drawLightFace(float xi, uint row) {
+    uint faces = texelFetch(lightSamples, 4).x, slots = texelFetch(lightSamples, 5).x;
+    float place = xi * float(slots);
+    uint slot = min(uint(place), slots - 1u);
+    uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (row * slots + slot) / 2u)).x;
+    uint cluster = (slot & 1u) != 0u ? word >> 16 : word & 0xffffu;
+    uint entry = uint((place - float(slot)) * float(faces)) + 11u * (slot >> 3) + 4u * (slot & 7u);
+    return texelFetch(lightSamples, int(uint(LIGHT_POOLS_AT) + cluster * faces + (entry & (faces - 1u)))).x;
+}
 
 struct LightSample {
     int face;  // -1: the point misses the face
@@ -16,21 +41,19 @@ struct LightSample {
     vec3 normal;
 };
 
-// A random point on a random light face, in grid coordinates. xi.x chooses the face: the list is ordered like
-// the voxels but for close neighbours, so that evenly spread numbers are spread over the scene. xi.yz choose
+// A random point on a random light face, in grid coordinates. xi.x chooses the face, xi.yz choose
 // a point, uniform in the face's bounds as seen along its direction k, projected along k onto its plane.
-LightSample sampleLightFace(vec3 xi, vec3 origin) {
-    // Choose a face by its flux
-    uint header = texelFetch(lightSamples, 0).x;
-    int entry = int(xi.x * float(LIGHT_SAMPLE_COUNT));
-    int face = int(texelFetch(lightSamples, 1 + entry).x);
+LightSample sampleLightFace(vec3 xi, vec3 origin, LightRow lights) {
+    // Choose a face by its flux, and by what its cluster brings to the cell
+    uint entry = drawLightFace(xi.x, lights.row);
+    int face = int(entry & ~LIGHT_MOVED);
     uvec4 r = texelFetch(voxelFaces, face);
     int axis = int(r.w >> 30);
     vec3 normal = octDecode(unpackSnorm2x16(r.x));
 
     // Choose a point within its bounds
     vec3 lower, upper;
-    lightSampleBounds(r, normal, origin, entry % kMovedBoundsPeriod == 0 ? -1.0 : 1.0, lower, upper);
+    lightSampleBounds(r, normal, origin, (entry & LIGHT_MOVED) != 0u ? -1.0 : 1.0, lower, upper);
     vec3 k = vec3(axis == 0, axis == 1, axis == 2);
     vec3 uvw = axis == 0 ? vec3(0.5, xi.yz) : (axis == 1 ? vec3(xi.z, 0.5, xi.y) : vec3(xi.yz, 0.5));
     vec3 p = mix(lower, upper, uvw) * (1.0 - k) + 0.5 * k;
@@ -39,7 +62,7 @@ LightSample sampleLightFace(vec3 xi, vec3 origin) {
     float height = (unpackOffset(r.y) - dot(normal, p - 0.5)) / dot(normal, k);
     p += height * k;
     float along = dot(p, k);
-    bool inside = header != 0u && along >= dot(lower, k) && along <= dot(upper, k);
+    bool inside = lights.inverseFlux > 0.0 && along >= dot(lower, k) && along <= dot(upper, k);
 #if NESTED_GRIDS
     vec4 place = voxelPlace(r.w);
     return LightSample(inside ? face : -1, place.xyz + place.w * p, normal);
@@ -61,12 +84,12 @@ float lightSampleShare(uvec4 hitTexel, vec3 n, vec3 origin, vec3 point) {
 
 // Density per steradian with which sampleLightFace chooses the ray's direction, given what the ray hit
 // (4.11).
-float lightFacePdf(Ray ray, VoxelHit hit, float inverseFlux) {
+float lightFacePdf(Ray ray, VoxelHit hit, LightRow lights) {
     uvec4 r = texelFetch(voxelFaces, max(hit.face, 0));
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     float radiance = hit.face >= 0 ? brightness(outgoingRadiance(max(hit.face, 0))) : 0.0;
     float cosine = max(-dot(n, ray.direction), 1e-3);
-    float pdf = radiance * dominantFaceShare(n, r.w >> 30) * inverseFlux * hit.t * hit.t / cosine;
+    float pdf = radiance * dominantFaceShare(n, r.w >> 30) * lights.inverseFlux * hit.t * hit.t / cosine;
 #if NESTED_GRIDS
     // Faces have their flux in voxels of their own level: coarse ones are far from the eye.
     vec4 place = voxelPlace(r.w);
@@ -75,5 +98,9 @@ float lightFacePdf(Ray ray, VoxelHit hit, float inverseFlux) {
 #else
     vec3 point = ray.origin + hit.t * ray.direction - vec3(unpackVoxel(r.w));
 #endif
+    LightCell cluster = clusterOfFace(r, n);
+    LightBounds box =
+        lightBounds(cluster, texelFetch(lightSamples, LIGHT_CLUSTER_EXTENTS_AT + cluster.row).x);
+    pdf *= shareOfCluster(lightGain(lights.cell, box), lights.scale);
     return hit.face >= 0 ? pdf * lightSampleShare(r, n, ray.origin, point) : 0.0;
 }

@@ -8,8 +8,8 @@ const uint kPixelSequence = 1u;
 
 // A pixel's shift of that sequence as a word, which costs rays one register. Any 2x2, 4x4 and 8x8 pixels, wherever they
 // begin, have shifts that are evenly spread: in x and y a net of 4, 16 and 64 points (digits of base 2), in z 4, 16 and 64
-// steps. Within its step z is random, by `seed`: of the places in the list of light samples one in 16 is another kind,
-// which even steps would all meet or all miss (kMovedBoundsPeriod).
+// steps. Within its step z is random, by `seed`: of the entries of a pool one in 16 is another kind, which even steps would
+// all meet or all miss (LIGHT_MOVED).
 uint pixelShift(uvec2 pixel, uint seed) {
     uvec3 v = (pixel.yyy >> uvec3(0u, 1u, 2u)) & 1u;
     uvec3 u = ((pixel.xxx >> uvec3(0u, 1u, 2u)) & 1u) ^ v;

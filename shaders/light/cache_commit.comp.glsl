@@ -7,6 +7,7 @@
 // SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
 layout(local_size_x = 64) in;
 #include "lib/dot.glsl"
+#include "lib/light_cells.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer stateTexels;
 layout(std430) writeonly buffer LitFaceTable { uvec4 litTable[]; };
@@ -16,6 +17,7 @@ uniform usamplerBuffer voxelFaces;
 uniform usamplerBuffer voxelRecords;
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
+layout(std430) buffer CellMarkTable { uint cellMarks[]; };
 layout(std430) writeonly buffer FluxTable { float fluxes[]; };
 
 #if SHARED && !AT_PIXELS
@@ -59,6 +61,26 @@ vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
 }
 #endif
 
+void mark(uint place, uvec3 bits) {
+    if ((cellMarks[place] & bits.x) == 0u) atomicOr(cellMarks[place], bits.x);
+    if ((cellMarks[place + 1u] & bits.y) == 0u) atomicOr(cellMarks[place + 1u], bits.y);
+    if ((cellMarks[place + 2u] & bits.z) == 0u) atomicOr(cellMarks[place + 2u], bits.z);
+}
+
+// Marks the cell in which rays from the face will look for light samples, and if it is lit the cluster that it is of.
+void markLight(uvec4 hitTexel, vec3 normal, bool lit) {
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(hitTexel.w);
+    vec3 middle = place.xyz + 0.5 * place.w;
+#else
+    vec3 middle = vec3(unpackVoxel(hitTexel.w)) + 0.5;
+#endif
+    LightCell cell = cellAt(middle, normal, cellShift(cache.update, cache.seed));
+    mark(3u * uint(cell.row), extentBits(cell, middle));
+    LightCell cluster = clusterOfFace(hitTexel, normal);
+    if (lit) mark(uint(LIGHT_CLUSTER_MARKS_AT + 3 * cluster.row), extentBits(cluster, middle));
+}
+
 void main() {
     uint face = linearIndex();
     if (face >= grid.faceCount) return;
@@ -70,7 +92,11 @@ void main() {
     bool dead = isInterior(state);
     vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
     vec3 radiance = unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * irradiance;
-    fluxes[face] = dead ? 0.0 : faceFlux(hitTexel, radiance);
+    vec3 normal = octDecode(unpackSnorm2x16(hitTexel.x));
+    float flux = dead ? 0.0 : faceFlux(hitTexel, radiance);
+    fluxes[face] = sidedFlux(flux, faceDirection(hitTexel, normal));
+    bool marks = ((face >> 3) + cache.update) % LIGHT_MARKED_PERIOD == 0u;
+    if (!dead && marks) markLight(hitTexel, normal, flux > 0.0);
     lit.z = packHalf2x16(irradiance.rg);
     lit.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (lit.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
             (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |

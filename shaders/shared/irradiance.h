@@ -2,8 +2,7 @@
 // What the irradiance cache (src/light/irradiance_cache.h) and its readers (lib/voxel_light.glsl) share.
 //
 //   litFaces      LitFace per face, what rays read where they hit
-//   lightSamples  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
-//                face. Entries are drawn by flux, anew for every update.
+//   lightSamples  uints, LIGHT_*: pools of faces that light samples are drawn from, anew for every update
 //   cachedDirect  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
 //   faceLight     two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
 //                 bits of its weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0
@@ -16,9 +15,38 @@
 // the cache's passes read tables of their own through buffer textures, too (`...Texels`), because software
 // drivers read storage lane by lane in loops.
 
-// Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
-// (docs/theory/4c_estimator.md, "The pool").
-#define LIGHT_SAMPLE_COUNT 4096
+// Light samples (docs/theory/4c_estimator.md, "The pool"). Clusters are the faces of one direction in a block of the grid, or
+// of one of nested ones, so many blocks a side; each has a pool of faces, drawn by flux. Cells are where faces gather, the
+// same numbers of them; each has a row of slots, half a word each: clusters, drawn by what they bring there. Behind the
+// rows of cells is one for all places, of flux alone.
+#define LIGHT_BLOCKS_OF_GRID 8
+#define LIGHT_BLOCKS_OF_LEVEL 4
+#define LIGHT_CLUSTERS 3072  // 6 * 8^3, and 6 * 4^3 * VOXEL_MOST_LEVELS
+#define LIGHT_ROWS (LIGHT_CLUSTERS + 1)
+#define LIGHT_ROW_OF_ALL LIGHT_CLUSTERS
+// Room for rows and pools: the fewer are in use, the larger they are, from these sizes down.
+#define LIGHT_MOST_SLOTS 128u      // of a row
+#define LIGHT_MOST_POOL_FACES 32u  // of a cluster
+#define LIGHT_ROOM 1024u           // rows and clusters that can have so many
+// Of the faces one in so many marks its cell and its cluster, eight side by side: where all are missed, the row of all is
+// drawn from once, and clusters are taken to be whole blocks.
+#define LIGHT_MARKED_PERIOD 4u
+// Marks: three words of bits for each row, and for each cluster (packExtents).
+#define LIGHT_CLUSTER_MARKS_AT (3 * LIGHT_CLUSTERS)
+#define LIGHT_MARK_WORDS (2 * LIGHT_CLUSTER_MARKS_AT)
+// Words of lightSamples: [0] 1 / flux of all faces as a float, per voxel side, [1] to [3] by how much cells are moved, [4]
+// faces of a pool, [5] slots of a row; then a scale per row, place per row, extents per row, extents per cluster; slots of
+// rows, pools of clusters, both in the order of their lists.
+#define LIGHT_SCALES_AT 6
+#define LIGHT_PLACES_AT (LIGHT_SCALES_AT + LIGHT_ROWS)
+#define LIGHT_CELL_EXTENTS_AT (LIGHT_PLACES_AT + LIGHT_ROWS)
+#define LIGHT_CLUSTER_EXTENTS_AT (LIGHT_CELL_EXTENTS_AT + LIGHT_CLUSTERS)
+#define LIGHT_SLOTS_AT (LIGHT_CLUSTER_EXTENTS_AT + LIGHT_CLUSTERS)
+#define LIGHT_POOLS_AT (LIGHT_SLOTS_AT + LIGHT_ROOM * LIGHT_MOST_SLOTS / 2)
+#define LIGHT_SAMPLE_WORDS (LIGHT_POOLS_AT + LIGHT_ROOM * LIGHT_MOST_POOL_FACES)
+#define LIGHT_UPDATE_SALT 0x51ed270bu
+// An entry of a pool is a face, and whether its bounds are moved the other way (kMovedBoundsPeriod).
+#define LIGHT_MOVED 0x80000000u
 
 // Updates after a change that replace what was there; averages begin then, in which early ones count for
 // less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not

@@ -10,7 +10,6 @@
 #include "gl/gl.h"
 #include "gl/pace.h"
 #include "light/firefly_clamp.h"
-#include "shared/prefix_sum.h"
 
 namespace conelight::light {
 namespace {
@@ -58,7 +57,6 @@ struct CommitKey {
 };
 
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
-gl::ProgramDesc sums(int step) { return {{"light/cache_sums.comp.glsl"}, {{"STEP", std::to_string(step)}}}; }
 
 }  // namespace
 
@@ -73,9 +71,7 @@ struct IrradianceCache::Visit {
 
 // Makes room for so many faces. What is there may be lost.
 void IrradianceCache::reserve(std::uint32_t faces) {
-    if (!pool_) {
-        pool_ = gl::Buffer(4 * (1 + LIGHT_SAMPLE_COUNT), "light samples");
-        poolTexels_ = gl::Texture(pool_, GL_R32UI, "light samples");
+    if (!constants_) {
         constants_ = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         reprojectionBlock_ = gl::Buffer(sizeof(gpu::CacheReprojection), "irradiance cache reprojection");
         oldLevelBlock_ = gl::Buffer(sizeof(gpu::VoxelLevels), "irradiance cache old levels");
@@ -93,14 +89,6 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         faceLight_ = {};
         faceLight_ = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
         faceLightTexels_ = gl::Texture(faceLight_, GL_RG32UI, "light of faces at pixels");
-    }
-    if (fluxes_.bytes() < std::size_t{4} * faces || !fluxes_) {
-        fluxTexels_ = {};
-        fluxes_ = {};
-        fluxes_ = gl::Buffer(std::size_t{4} * room, "flux of faces");
-        fluxTexels_ = gl::Texture(fluxes_, GL_R32F, "flux of faces");
-        chunks_ = gl::Buffer(4 * (std::size_t{gpu::mostChunks(static_cast<std::uint32_t>(room))} + 1),
-                             "flux of chunks of faces");
     }
 }
 
@@ -122,6 +110,7 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
         balance_.restart(LightBalance::Restart::Dark);
     }
     reserve(surface.mostFaces());
+    samples_.reserve(voxels.grid(), surface.mostFaces());
     faceCount_ = surface.mostFaces();
     {
         const gl::PassScope pass(device.profiler, "irradiance: reproject");
@@ -208,22 +197,26 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     return c;
 }
 
-// States -> lit faces and pool; and what pixels see (atPixels).
+// States -> lit faces and light samples; and what pixels see (atPixels).
 base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inputs,
                                     const CacheSettings& settings, bool atPixels) {
-    gl::PassSteps scope(device, "irradiance: light samples");
     prepared_ = false;
+    co_await putLight(device, inputs, settings, atPixels);
+    co_await samples_.drawInSteps(device, inputs.voxels.surface(), constants_);
+    prepared_ = true;
+}
+
+// States -> what rays and pixels see, and the flux of faces.
+base::Steps IrradianceCache::putLight(const gl::Device& device, const Inputs& inputs,
+                                      const CacheSettings& settings, bool atPixels) {
+    gl::PassSteps scope(device, "irradiance: light samples");
     constants_.update(packed(settings));
     gl::Inputs given;
     given.add(inputs.voxels.surface())
         .add(inputs.faces)
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
-        .texture("stateTexels", stateTexels_)
-        .storage("ChunkTable", chunks_)
-        .storage("PoolTable", pool_)
-        .storage("FluxTable", fluxes_)
-        .texture("faceFluxes", fluxTexels_);
+        .texture("stateTexels", stateTexels_);
     const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
     const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
     const bool twice = kind == Commit::SharedForPixels;
@@ -232,6 +225,8 @@ base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inpu
                           "shared light of faces");
     gl::Inputs commits = given;
     commits.storage("FaceLightTable", twice ? sharedLight_ : faceLight_);
+    samples_.reserve(inputs.voxels.grid(), faceCount_);
+    samples_.declareWritten(commits);
     device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     if (twice) {
@@ -243,15 +238,7 @@ base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inpu
     }
     co_await scope.rest();
     if (std::exchange(restarts_, false)) device.get(pass("restart")).dispatchLinear(given, faceCount_);
-    device.get(sums(0)).dispatchLinear(given, gpu::mostChunks(faceCount_));
-    gl::barrier(gl::Access::ShaderStorage);
-    co_await scope.rest();
-    device.get(sums(1)).dispatch(given, 1);
-    gl::barrier(gl::Access::ShaderStorage);
-    co_await scope.rest();
-    device.get(pass("pool")).dispatch(given, LIGHT_SAMPLE_COUNT);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
-    prepared_ = true;
 }
 
 base::Steps IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end,
@@ -425,6 +412,7 @@ void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
     balance_.release();
+    samples_.release();
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
@@ -437,15 +425,15 @@ int IrradianceCache::updates() const {
 }
 
 void IrradianceCache::declare(gl::Inputs& inputs) const {
-    inputs.texture("lightSamples", poolTexels_).texture("faceLight", faceLightTexels_);
+    inputs.add(samples_).texture("faceLight", faceLightTexels_);
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{sums(0),           sums(1),       pass("pool"),  pass("restart"),
-                                       pass("reproject"), pass("share"), pass("ranges")};
+    std::vector<gl::ProgramDesc> descs{pass("restart"), pass("reproject"), pass("share"), pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
-    for (const auto& more : {FaceOrder::programDescs(), LightBalance::programDescs()})
+    for (const auto& more :
+         {FaceOrder::programDescs(), LightBalance::programDescs(), LightSamples::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

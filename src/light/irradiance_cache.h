@@ -15,6 +15,7 @@
 #include "light/edit_places.h"
 #include "light/face_order.h"
 #include "light/light_balance.h"
+#include "light/light_samples.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
@@ -82,7 +83,8 @@ class IrradianceCache {
         return visits_;
     }
 
-    void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
+    void declare(gl::Inputs& inputs) const;  // lightSamples, faceLight
+    const LightSamples& samples() const { return samples_; }
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
     const gl::Buffer& order() const { return order_.buffer(); }  // a face per place, for tests
 
@@ -124,10 +126,13 @@ class IrradianceCache {
                          std::uint32_t count);
     base::Steps commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                        bool atPixels);
+    base::Steps putLight(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                         bool atPixels);
 
-    gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
-        reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_;
-    gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
+    gl::Buffer states_, oldStates_, faceLight_, sharedLight_, constants_, reprojectionBlock_, oldLevelBlock_,
+        ranges_, rangeBlock_;
+    gl::Texture faceLightTexels_, sharedLightTexels_, stateTexels_, oldStateTexels_;
+    LightSamples samples_;
     FaceOrder order_;
     LightBalance balance_;
     base::Revision voxelsFrom_;  // whose faces these are

@@ -312,6 +312,29 @@ TEST_F(TracedNoiseTest, SmallLampsThrowNoDotsOnSteel) {
     EXPECT_NEAR(meanOf(image) / meanOf(truth), 1.0, 0.03);
 }
 
+// A closed room with a lamp, in a house whose outside shines: most of all light is there. No rays are wasted on it.
+TEST_F(TracedNoiseTest, LightOutsideLeavesRoomsQuiet) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.6f)));
+    addInstance(scene, sphereMesh(16, 12), diffuseMaterial(glm::vec3(0), glm::vec3(20)),
+                glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.5f, -0.4f}), glm::vec3(0.1f)));
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    settings.voxels.size = 96;
+    settings.traced.filterLevels = 0;
+    settings.light.emissiveQuads = false;  // rays find all that shines
+    settings.traced.passes = 16;
+    for (const bool shines : {false, true}) {
+        if (shines)
+            addInstance(scene, boxMesh(), diffuseMaterial(glm::vec3(0.5f), glm::vec3(5)),
+                        glm::scale(glm::mat4(1), glm::vec3(1.2f)));
+        const Image image = draw(scene, settings);
+        settings.traced.passes = 512;
+        const Image truth = draw(scene, settings);
+        settings.traced.passes = 16;
+        EXPECT_LT(relRmse(image, truth), 0.35) << (shines ? "with its outside" : "alone");
+        EXPECT_NEAR(meanOf(image) / meanOf(truth), 1.0, 0.02);
+    }
+}
+
 // A room lit by one lamp that rays must find: where few did, a pixel is darker than all about it, and the
 // filter must share nonetheless.
 TEST_F(TracedNoiseTest, FewRaysLeaveNoDarkDots) {

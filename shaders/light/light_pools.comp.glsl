@@ -1,0 +1,65 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Draws the pools of the clusters that send light. Each entry is the face at a random place in one of equal parts of the
+// cluster's flux (stratified), in the order of runs and their faces.
+layout(local_size_x = 64) in;
+#include "lib/linear_index.glsl"
+#include "lib/random.glsl"
+#include "light/light_bricks.glsl"
+layout(std140) uniform CacheBlock { CacheConstants cache; };
+uniform samplerBuffer runFluxes;
+uniform usamplerBuffer clusterList;
+uniform samplerBuffer clusterPlaces;
+layout(std430) buffer LightTable { uint lightTable[]; };
+
+// The run of a cluster up to which there is more flux than `wanted`, and what is before it.
+int runAt(int cluster, float wanted, out float before) {
+    ivec3 block = cubeOfRow(cluster);
+    int level = levelOfRow(cluster);
+    int side = sideOfRow(cluster);
+    int edge = 1 << blockShift();
+    int found = -1;
+    float sum = 0.0;
+    ivec2 within = ivec2(0);
+    do {
+        int run = runOfBlock(block, level, within);
+        float flux = run >= 0 ? texelFetch(runFluxes, 6 * max(run, 0) + side).x : 0.0;
+        // The last one with any flux stands in where rounding overshoots.
+        found = flux > 0.0 ? run : found;
+        before = flux > 0.0 ? sum : before;
+        sum += flux;
+        within = within.x + 1 < edge ? within + ivec2(1, 0) : ivec2(0, within.y + 1);
+    } while (within.y < edge && sum <= wanted);
+    return found;
+}
+
+int faceAt(int run, uint side, float sum, float wanted) {
+    ivec2 faces = facesOfRun(run);
+    int found = faces.x;
+    while (faces.x < faces.y && sum <= wanted) {
+        float sided = texelFetch(faceFluxes, faces.x).x;
+        float flux = sideOfFlux(sided) == side ? withoutSide(sided) : 0.0;
+        found = flux > 0.0 ? faces.x : found;
+        sum += flux;
+        ++faces.x;
+    }
+    return found;
+}
+
+void main() {
+    uint index = linearIndex();
+    uint faces = lightTable[4];
+    uint place = index / faces, entry = index % faces;
+    if (place >= texelFetch(clusterList, 0).x) return;
+    int cluster = int(texelFetch(clusterList, int(1u + place)).x);
+    uint at = uint(cluster) * LIGHT_MOST_POOL_FACES + entry;
+    uint state = randomHash(at ^ randomHash(cache.update ^ randomHash(cache.seed ^ LIGHT_UPDATE_SALT)));
+    float part = texelFetch(clusterPlaces, int(2u * place)).w / float(faces);
+    float wanted = (float(entry) + randomNext(state)) * part;
+    float before = 0.0;
+    int run = runAt(cluster, wanted, before);
+    uint face = uint(faceAt(max(run, 0), uint(sideOfRow(cluster)), before, wanted));
+    // Those with bounds that are moved the other way are others in each update.
+    bool moved = (entry + randomHash(uint(cluster) ^ cache.update)) % uint(kMovedBoundsPeriod) == 0u;
+    lightTable[uint(LIGHT_POOLS_AT) + index] = moved ? face | LIGHT_MOVED : face;
+}
