@@ -174,7 +174,7 @@ float lightPdf(Ray ray, VoxelHit hit, LightRow lights, float skyPdf) {
 // is one. A miss sees the sky. backFaceShare: share of cosine-sampled rays that passed a back face.
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
-    LightRow lights = lightRowAt(point.origin, point.geometricNormal);
+    LightRow lights = lightRowAt(point.origin, point.shadingNormal);
     uint random = randomHash(sequence.ofBounces) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
     BEGIN_CACHED();
