@@ -125,7 +125,7 @@ float aimedPdf(vec3 origin, int face, float inverseFlux) {
 
 LobeRay aimAtVoxel(Surface s, Brdf b, uint seed, uint number) {
     vec3 xiLight = sequencePoint3(seed, number);
-    int face = int(drawLightFace(xiLight.x, 0u) & ~LIGHT_MOVED);
+    int face = int(drawLightFace(xiLight.x, LIGHT_PLACE_OF_ALL) & ~LIGHT_MOVED);
     vec4 cube = faceCube(texelFetch(voxelFaces, face));
     vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
     vec3 towards = cube.xyz - origin;

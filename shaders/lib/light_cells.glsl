@@ -123,6 +123,11 @@ float cellEdge() {
     return max(size.x, max(size.y, size.z)) / float(kLightBlocks - 1);
 }
 
+// Seed of the random numbers that an entry or a row is drawn with.
+uint drawSeed(uint number, uint update, uint seed) {
+    return randomHash(number ^ randomHash(update ^ randomHash(seed ^ 0x51ed270bu)));
+}
+
 // Cells are elsewhere after each update, so that none of their borders shows: by these parts of their edge, [0,1).
 vec3 cellShift(uint update, uint seed) {
     uint state = randomHash(update ^ randomHash(seed ^ 0x2545f491u));
@@ -135,11 +140,6 @@ LightCell cellOfRow(int row, vec3 shift) {
     return lightCube(cubeOfRow(row), levelOfRow(row), sideOfRow(row), edge, shift * edge);
 }
 
-int mainSide(vec3 n) {
-    vec3 a = abs(n);
-    return sideOfAxis(a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2), n);
-}
-
 LightCell cellAt(vec3 point, vec3 normal, vec3 shift) {
     int level = 0;
 #if NESTED_GRIDS
@@ -148,7 +148,7 @@ LightCell cellAt(vec3 point, vec3 normal, vec3 shift) {
 #endif
     float edge = cellEdge();
     ivec3 at = clamp(ivec3(floor(point / edge + shift)), ivec3(0), ivec3(kLightBlocks - 1));
-    return lightCube(at, level, mainSide(normal), edge, shift * edge);
+    return lightCube(at, level, mainDirection(normal), edge, shift * edge);
 }
 
 // What a cluster brings to a cell for its flux, were nothing between them: a form factor, blurred by the size of both.

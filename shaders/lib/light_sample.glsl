@@ -18,7 +18,7 @@ LightRow lightRowAt(vec3 point, vec3 normal) {
         uvec3(texelFetch(lightSamples, 1).x, texelFetch(lightSamples, 2).x, texelFetch(lightSamples, 3).x));
     LightCell cell = cellAt(point, normal, shift);
     LightBounds box = lightBounds(cell, texelFetch(lightSamples, LIGHT_CELL_EXTENTS_AT + cell.row).x);
-    uint place = texelFetch(lightSamples, LIGHT_PLACES_AT + cell.row).x;  // 0: of all
+    uint place = texelFetch(lightSamples, LIGHT_PLACES_AT + cell.row).x;  // else that of all
     return LightRow(place, box, uintBitsToFloat(texelFetch(lightSamples, LIGHT_SCALES_AT + cell.row).x),
                     uintBitsToFloat(texelFetch(lightSamples, 0).x));
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The second pass of a prefix sum (shared/prefix_sum.h), by one group of PREFIX_GROUP invocations. Sums have an order:
-// fractions are the same in every run. Includers define PREFIX_TYPE, a type of numbers, and declare `chunks`, a list of them.
+// fractions are the same in every run. Includers define PREFIX_TYPE, a type of numbers, and declare `chunks`, a list of
+// them. PREFIX_CHUNKS 0: sums of invocations alone, without that list.
 #include "shared/prefix_sum.h"
+#ifndef PREFIX_CHUNKS
+#define PREFIX_CHUNKS 1
+#endif
 #ifndef PREFIX_TYPE
 #error PREFIX_TYPE must be a type of numbers
 #endif
@@ -24,6 +28,7 @@ PREFIX_TYPE prefixBefore(PREFIX_TYPE sum, out PREFIX_TYPE total) {
     return index > 0u ? before : PREFIX_TYPE(0);
 }
 
+#if PREFIX_CHUNKS
 // The sums of `count` chunks -> what is before each; returns the sum of all.
 PREFIX_TYPE prefixChunks(uint count) {
     uint each = (count + uint(PREFIX_GROUP) - 1u) / uint(PREFIX_GROUP);
@@ -40,3 +45,4 @@ PREFIX_TYPE prefixChunks(uint count) {
     }
     return total;
 }
+#endif

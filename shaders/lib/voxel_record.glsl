@@ -82,6 +82,11 @@ int sideOfAxis(int axis, vec3 n) {
     float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
     return 2 * axis + (along < 0.0 ? 1 : 0);
 }
+// The direction in which a normal leans most.
+int mainDirection(vec3 n) {
+    vec3 a = abs(n);
+    return sideOfAxis(a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2), n);
+}
 // The direction that a face with the normal n looks to.
 int faceDirection(uvec4 hitTexel, vec3 n) { return sideOfAxis(int(hitTexel.w >> 30), n); }
 // Offset from the plane of a face to the highest surface in front of it, along the face's axis: how far the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the passes of the irradiance cache share that deal with the flux of faces, for light samples.
+// What the passes of the irradiance cache share that go over all faces.
 #include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"

@@ -66,12 +66,6 @@ const float kSameSurfaceAside = 0.35;
 const float kSliverPart = 0.1;
 const float kSliverNormal = 0.5;
 
-// The direction in which a normal leans most.
-int mainDirection(vec3 n) {
-    vec3 a = abs(n);
-    return sideOfAxis(a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2), n);
-}
-
 // Which face gathers for this one: that of its voxel which looks where the normal leans most, if it gathers
 // for itself and holds the same surface, or nearly all of it; else this one.
 uint gathererOf(uint face, uvec4 hitTexel) {

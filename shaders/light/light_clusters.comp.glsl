@@ -7,8 +7,8 @@ layout(local_size_x = PREFIX_GROUP) in;
 #include "lib/light_cells.glsl"
 #include "light/light_bricks.glsl"
 #define PREFIX_TYPE vec3
+#define PREFIX_CHUNKS 0
 layout(std140) uniform CacheBlock { CacheConstants cache; };
-vec3 chunks[1];  // lib/prefix_sum.glsl wants some
 #include "lib/prefix_sum.glsl"
 uniform samplerBuffer runFluxes;
 uniform usamplerBuffer cellMarks;
@@ -76,7 +76,7 @@ void main() {
             lightTable[LIGHT_CELL_EXTENTS_AT + first + i] = packExtents(marksAt(3 * (first + i)));
         }
         lightTable[LIGHT_SCALES_AT + first + i] = 0u;
-        lightTable[LIGHT_PLACES_AT + first + i] = 0u;
+        lightTable[LIGHT_PLACES_AT + first + i] = LIGHT_PLACE_OF_ALL;
     }
     if (gl_LocalInvocationIndex != 0u) return;
     clusterList[0] = uint(total.x);
@@ -91,5 +91,5 @@ void main() {
     lightTable[4] = sizeFor(uint(total.x), LIGHT_MOST_POOL_FACES);
     lightTable[5] = sizeFor(1u + uint(total.y), LIGHT_MOST_SLOTS);
     lightTable[LIGHT_SCALES_AT + LIGHT_ROW_OF_ALL] = 0u;
-    lightTable[LIGHT_PLACES_AT + LIGHT_ROW_OF_ALL] = 0u;
+    lightTable[LIGHT_PLACES_AT + LIGHT_ROW_OF_ALL] = LIGHT_PLACE_OF_ALL;
 }

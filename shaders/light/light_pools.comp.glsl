@@ -4,7 +4,6 @@
 // cluster's flux (stratified), in the order of runs and their faces.
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
-#include "lib/random.glsl"
 #include "light/light_bricks.glsl"
 layout(std140) uniform CacheBlock { CacheConstants cache; };
 uniform samplerBuffer runFluxes;
@@ -53,7 +52,7 @@ void main() {
     if (place >= texelFetch(clusterList, 0).x) return;
     int cluster = int(texelFetch(clusterList, int(1u + place)).x);
     uint at = uint(cluster) * LIGHT_MOST_POOL_FACES + entry;
-    uint state = randomHash(at ^ randomHash(cache.update ^ randomHash(cache.seed ^ LIGHT_UPDATE_SALT)));
+    uint state = drawSeed(at, cache.update, cache.seed);
     float part = texelFetch(clusterPlaces, int(2u * place)).w / float(faces);
     float wanted = (float(entry) + randomNext(state)) * part;
     float before = 0.0;

@@ -43,8 +43,7 @@ void main() {
     lightTable[LIGHT_PLACES_AT + row] = index;
 
     // Draw evenly spaced slots
-    uint state =
-        randomHash(uint(row) ^ randomHash(cache.update ^ randomHash(cache.seed ^ LIGHT_UPDATE_SALT)));
+    uint state = drawSeed(uint(row), cache.update, cache.seed);
     uint slots = lightTable[5];
     float step = flux / float(slots);
     float wanted = randomNext(state) * step;

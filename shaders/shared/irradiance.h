@@ -24,6 +24,7 @@
 #define LIGHT_CLUSTERS 3072  // 6 * 8^3, and 6 * 4^3 * VOXEL_MOST_LEVELS
 #define LIGHT_ROWS (LIGHT_CLUSTERS + 1)
 #define LIGHT_ROW_OF_ALL LIGHT_CLUSTERS
+#define LIGHT_PLACE_OF_ALL 0u  // in the list of rows
 // Room for rows and pools: the fewer are in use, the larger they are, from these sizes down.
 #define LIGHT_MOST_SLOTS 128u      // of a row
 #define LIGHT_MOST_POOL_FACES 32u  // of a cluster
@@ -44,7 +45,6 @@
 #define LIGHT_SLOTS_AT (LIGHT_CLUSTER_EXTENTS_AT + LIGHT_CLUSTERS)
 #define LIGHT_POOLS_AT (LIGHT_SLOTS_AT + LIGHT_ROOM * LIGHT_MOST_SLOTS / 2)
 #define LIGHT_SAMPLE_WORDS (LIGHT_POOLS_AT + LIGHT_ROOM * LIGHT_MOST_POOL_FACES)
-#define LIGHT_UPDATE_SALT 0x51ed270bu
 // An entry of a pool is a face, and whether its bounds are moved the other way (kMovedBoundsPeriod).
 #define LIGHT_MOVED 0x80000000u
 
