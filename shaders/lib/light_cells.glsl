@@ -128,27 +128,25 @@ uint drawSeed(uint number, uint update, uint seed) {
     return randomHash(number ^ randomHash(update ^ randomHash(seed ^ 0x51ed270bu)));
 }
 
-// Cells are elsewhere after each update, so that none of their borders shows: by these parts of their edge, [0,1).
-vec3 cellShift(uint update, uint seed) {
-    uint state = randomHash(update ^ randomHash(seed ^ 0x2545f491u));
-    float x = randomNext(state), y = randomNext(state);
-    return vec3(x, y, randomNext(state));
-}
+// Cells are elsewhere after each update, so that none of their borders shows: by this part of their edge, 10 bits an axis.
+uint cellShift(uint update, uint seed) { return randomHash(update ^ randomHash(seed ^ 0x2545f491u)); }
+vec3 shiftOfCells(uint shift) { return vec3(uvec3(shift, shift >> 10, shift >> 20) & 1023u) / 1024.0; }
 
-LightCell cellOfRow(int row, vec3 shift) {
+LightCell cellOfRow(int row, uint shift) {
     float edge = cellEdge();
-    return lightCube(cubeOfRow(row), levelOfRow(row), sideOfRow(row), edge, shift * edge);
+    return lightCube(cubeOfRow(row), levelOfRow(row), sideOfRow(row), edge, shiftOfCells(shift) * edge);
 }
 
-LightCell cellAt(vec3 point, vec3 normal, vec3 shift) {
+LightCell cellAt(vec3 point, vec3 normal, uint shift) {
     int level = 0;
 #if NESTED_GRIDS
     level = levelAt(point);
     point = levelFromGrid(point, levelPlace(level));
 #endif
     float edge = cellEdge();
-    ivec3 at = clamp(ivec3(floor(point / edge + shift)), ivec3(0), ivec3(kLightBlocks - 1));
-    return lightCube(at, level, mainDirection(normal), edge, shift * edge);
+    vec3 moved = shiftOfCells(shift);
+    ivec3 at = clamp(ivec3(floor(point / edge + moved)), ivec3(0), ivec3(kLightBlocks - 1));
+    return lightCube(at, level, mainDirection(normal), edge, moved * edge);
 }
 
 // What a cluster brings to a cell for its flux, were nothing between them: a form factor, blurred by the size of both.

@@ -5,31 +5,26 @@
 #include "lib/dot.glsl"
 #include "lib/light_cells.glsl"
 
-// What light samples are drawn from at a place.
+// What light samples are drawn from at a place. Little, as rays keep it while they walk.
 struct LightRow {
-    uint row;  // place of its cell's row
-    LightBounds cell;
+    int row;
     float scale;        // shareOfCluster
     float inverseFlux;  // of all faces; 0: nothing sends light
 };
 
 LightRow lightRowAt(vec3 point, vec3 normal) {
-    vec3 shift = uintBitsToFloat(
-        uvec3(texelFetch(lightSamples, 1).x, texelFetch(lightSamples, 2).x, texelFetch(lightSamples, 3).x));
-    LightCell cell = cellAt(point, normal, shift);
-    LightBounds box = lightBounds(cell, texelFetch(lightSamples, LIGHT_CELL_EXTENTS_AT + cell.row).x);
-    uint place = texelFetch(lightSamples, LIGHT_PLACES_AT + cell.row).x;  // else that of all
-    return LightRow(place, box, uintBitsToFloat(texelFetch(lightSamples, LIGHT_SCALES_AT + cell.row).x),
-                    uintBitsToFloat(texelFetch(lightSamples, 0).x));
+    int row = cellAt(point, normal, texelFetch(lightSamples, LIGHT_SHIFT_AT).x).row;
+    return LightRow(row, uintBitsToFloat(texelFetch(lightSamples, LIGHT_SCALES_AT + row).x),
+                    uintBitsToFloat(texelFetch(lightSamples, LIGHT_INVERSE_FLUX_AT).x));
 }
 
-// A random entry of the pool of a random cluster of a row: a face, and LIGHT_MOVED. Evenly spread numbers are spread over
+// A random entry of the pool of a random cluster of the row at a place in the list of rows: a face, and LIGHT_MOVED. Evenly spread numbers are spread over
 // the scene, those of one cluster over its pool.
-uint drawLightFace(float xi, uint row) {
-    uint faces = texelFetch(lightSamples, 4).x, slots = texelFetch(lightSamples, 5).x;
+uint drawLightFace(float xi, uint at) {
+    uint faces = texelFetch(lightSamples, LIGHT_POOL_FACES_AT).x, slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;
     float place = xi * float(slots);
     uint slot = min(uint(place), slots - 1u);
-    uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (row * slots + slot) / 2u)).x;
+    uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (at * slots + slot) / 2u)).x;
     uint cluster = (slot & 1u) != 0u ? word >> 16 : word & 0xffffu;
     uint entry = uint((place - float(slot)) * float(faces)) + 11u * (slot >> 3) + 4u * (slot & 7u);
     return texelFetch(lightSamples, int(uint(LIGHT_POOLS_AT) + cluster * faces + (entry & (faces - 1u)))).x;
@@ -45,7 +40,7 @@ struct LightSample {
 // a point, uniform in the face's bounds as seen along its direction k, projected along k onto its plane.
 LightSample sampleLightFace(vec3 xi, vec3 origin, LightRow lights) {
     // Choose a face by its flux, and by what its cluster brings to the cell
-    uint entry = drawLightFace(xi.x, lights.row);
+    uint entry = drawLightFace(xi.x, texelFetch(lightSamples, LIGHT_PLACES_AT + lights.row).x);
     int face = int(entry & ~LIGHT_MOVED);
     uvec4 r = texelFetch(voxelFaces, face);
     int axis = int(r.w >> 30);
@@ -98,9 +93,10 @@ float lightFacePdf(Ray ray, VoxelHit hit, LightRow lights) {
 #else
     vec3 point = ray.origin + hit.t * ray.direction - vec3(unpackVoxel(r.w));
 #endif
-    LightCell cluster = clusterOfFace(r, n);
-    LightBounds box =
+    LightCell cluster = clusterOfFace(r, n), cell = cellOfRow(lights.row, texelFetch(lightSamples, LIGHT_SHIFT_AT).x);
+    LightBounds sender =
         lightBounds(cluster, texelFetch(lightSamples, LIGHT_CLUSTER_EXTENTS_AT + cluster.row).x);
-    pdf *= shareOfCluster(lightGain(lights.cell, box), lights.scale);
+    LightBounds getter = lightBounds(cell, texelFetch(lightSamples, LIGHT_CELL_EXTENTS_AT + cell.row).x);
+    pdf *= shareOfCluster(lightGain(getter, sender), lights.scale);
     return hit.face >= 0 ? pdf * lightSampleShare(r, n, ray.origin, point) : 0.0;
 }

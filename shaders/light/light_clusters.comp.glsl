@@ -83,13 +83,10 @@ void main() {
     // The row of all is the first.
     rowList[0] = 1u + uint(total.y);
     rowList[1] = uint(LIGHT_ROW_OF_ALL);
-    vec3 shift = cellShift(cache.update, cache.seed);
-    lightTable[0] = floatBitsToUint(total.z > 0.0 ? 1.0 / total.z : 0.0);
-    lightTable[1] = floatBitsToUint(shift.x);
-    lightTable[2] = floatBitsToUint(shift.y);
-    lightTable[3] = floatBitsToUint(shift.z);
-    lightTable[4] = sizeFor(uint(total.x), LIGHT_MOST_POOL_FACES);
-    lightTable[5] = sizeFor(1u + uint(total.y), LIGHT_MOST_SLOTS);
+    lightTable[LIGHT_INVERSE_FLUX_AT] = floatBitsToUint(total.z > 0.0 ? 1.0 / total.z : 0.0);
+    lightTable[LIGHT_SHIFT_AT] = cellShift(cache.update, cache.seed);
+    lightTable[LIGHT_POOL_FACES_AT] = sizeFor(uint(total.x), LIGHT_MOST_POOL_FACES);
+    lightTable[LIGHT_SLOT_COUNT_AT] = sizeFor(1u + uint(total.y), LIGHT_MOST_SLOTS);
     lightTable[LIGHT_SCALES_AT + LIGHT_ROW_OF_ALL] = 0u;
     lightTable[LIGHT_PLACES_AT + LIGHT_ROW_OF_ALL] = LIGHT_PLACE_OF_ALL;
 }

@@ -47,7 +47,7 @@ int faceAt(int run, uint side, float sum, float wanted) {
 
 void main() {
     uint index = linearIndex();
-    uint faces = lightTable[4];
+    uint faces = lightTable[LIGHT_POOL_FACES_AT];
     uint place = index / faces, entry = index % faces;
     if (place >= texelFetch(clusterList, 0).x) return;
     int cluster = int(texelFetch(clusterList, int(1u + place)).x);

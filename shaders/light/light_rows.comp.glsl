@@ -44,7 +44,7 @@ void main() {
 
     // Draw evenly spaced slots
     uint state = drawSeed(uint(row), cache.update, cache.seed);
-    uint slots = lightTable[5];
+    uint slots = lightTable[LIGHT_SLOT_COUNT_AT];
     float step = flux / float(slots);
     float wanted = randomNext(state) * step;
     uint slot = 0u;

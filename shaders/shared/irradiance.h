@@ -35,10 +35,13 @@
 // Marks: three words of bits for each row, and for each cluster (packExtents).
 #define LIGHT_CLUSTER_MARKS_AT (3 * LIGHT_CLUSTERS)
 #define LIGHT_MARK_WORDS (2 * LIGHT_CLUSTER_MARKS_AT)
-// Words of lightSamples: [0] 1 / flux of all faces as a float, per voxel side, [1] to [3] by how much cells are moved, [4]
-// faces of a pool, [5] slots of a row; then a scale per row, place per row, extents per row, extents per cluster; slots of
+// Words of lightSamples: four about all; then a scale per row, place per row, extents per row, extents per cluster; slots of
 // rows, pools of clusters, both in the order of their lists.
-#define LIGHT_SCALES_AT 6
+#define LIGHT_INVERSE_FLUX_AT 0  // 1 / flux of all faces as a float, per voxel side; 0: nothing sends light
+#define LIGHT_SHIFT_AT 1         // by how much cells are moved (cellShift)
+#define LIGHT_POOL_FACES_AT 2    // faces of a pool
+#define LIGHT_SLOT_COUNT_AT 3    // slots of a row
+#define LIGHT_SCALES_AT 4
 #define LIGHT_PLACES_AT (LIGHT_SCALES_AT + LIGHT_ROWS)
 #define LIGHT_CELL_EXTENTS_AT (LIGHT_PLACES_AT + LIGHT_ROWS)
 #define LIGHT_CLUSTER_EXTENTS_AT (LIGHT_CELL_EXTENTS_AT + LIGHT_CLUSTERS)

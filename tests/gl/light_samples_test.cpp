@@ -62,7 +62,7 @@ struct Drawn {
             if (flux > 1e-30 && place-- == 0) return cluster;
         return -1;
     }
-    std::size_t slotCount() const { return words[5]; }
+    std::size_t slotCount() const { return words[LIGHT_SLOT_COUNT_AT]; }
     std::map<int, int> slotsOf(std::size_t row) const {
         std::map<int, int> slots;
         for (std::size_t slot = 0; slot < slotCount(); ++slot) {
@@ -100,14 +100,14 @@ TEST_F(LightSamplesTest, PoolsAndTheRowOfAllAreDrawnByFlux) {
         shine(rig);
         const Drawn drawn(rig);
         ASSERT_GT(drawn.total, 0);
-        EXPECT_NEAR(std::bit_cast<float>(drawn.words[0]) * drawn.total, 1.0, 1e-3);
+        EXPECT_NEAR(std::bit_cast<float>(drawn.words[LIGHT_INVERSE_FLUX_AT]) * drawn.total, 1.0, 1e-3);
         for (const auto& [cluster, count] : drawn.slotsOf(LIGHT_ROW_OF_ALL))
             EXPECT_NEAR(
                 count, static_cast<double>(drawn.slotCount()) * drawn.fluxOfCluster.at(cluster) / drawn.total,
                 1.01)
                 << cluster;
         int looked = 0;
-        const std::size_t faces = drawn.words[4];
+        const std::size_t faces = drawn.words[LIGHT_POOL_FACES_AT];
         for (std::size_t place = 0; drawn.clusterAt(place) >= 0; ++place) {
             const int cluster = drawn.clusterAt(place);
             const double flux = drawn.fluxOfCluster.at(cluster);
@@ -139,8 +139,8 @@ TEST_F(LightSamplesTest, RoomsDrawLittleOfWhatShinesOutside) {
         return std::max({at.x, at.y, at.z}) > 1.1f;
     };
     EXPECT_GT(drawn.partOf(LIGHT_ROW_OF_ALL, isOutside), 0.85);
-    const glm::vec3 shift(std::bit_cast<float>(drawn.words[1]), std::bit_cast<float>(drawn.words[2]),
-                          std::bit_cast<float>(drawn.words[3]));
+    const std::uint32_t bits = drawn.words[LIGHT_SHIFT_AT];
+    const glm::vec3 shift = glm::vec3(glm::uvec3(bits, bits >> 10, bits >> 20) & 1023u) / 1024.0f;
     const float edge = static_cast<float>(std::max({grid.size.x, grid.size.y, grid.size.z})) / 7.0f;
     int walls = 0;
     for (std::size_t row = 0; row < LIGHT_CLUSTERS; ++row) {
