@@ -170,7 +170,7 @@ vec3 lastStretch(GlassEnd last, inout bool sure) {
     pathStartsNarrow = path.narrow;
     allRectPoints = path.alpha == 0.0;
     PathSettings settings = PathSettings(-1.0, int(glassPass.reflections), path.alpha, glassPass.fireflyClamp,
-                                         max(path.alpha, rayCone.growth));
+                                         max(path.alpha, rayCone.growth), 0.0);
     VoxelHit hit;
     vec3 radiance = traceRadiance(ray, settings, random, hit);
     // Metals reflect by chance

@@ -31,7 +31,7 @@ layout(rgba32ui) writeonly uniform uimage2D result;
 
 // The radius of the solid angle that is a ray's among all that are averaged (Krivanek and Colbert 2008,
 // "Real-time Shading with Filtered Importance Sampling"): at the rim of the lobe it is wide.
-float skyWidth(Brdf b, Surface s, vec3 direction) {
+float rayFootprint(Brdf b, Surface s, vec3 direction) {
     float rays = float(pixelRays.rays) * pixelRays.longestMean;
     return inversesqrt(kPi * rays * max(lobePdf(b, s.normal, s.toEye, direction), 1e-6));
 }
@@ -213,8 +213,10 @@ void main() {
 
         // Follow it
         VoxelHit hit;
-        PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
-                                         pixelRays.fireflyClamp, skyWidth(b, s, drawn.ray.direction));
+        float footprint = rayFootprint(b, s, drawn.ray.direction);
+        PathSettings path =
+            PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.fireflyClamp,
+                         footprint, footprint * inversesqrt(kPixelsTogether));
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
         vec3 weight = drawn.weight;

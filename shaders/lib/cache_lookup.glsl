@@ -23,11 +23,23 @@ const float kLeastAxis = 1e-3;
 const float kSameBend = 0.75;
 const float kSameBendRange = 0.1;
 
-// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`, with CACHE_NORMALS 1: sum of the
-// normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are
+// The normals of the faces about a point, as far as they are near a normal.
+struct NormalSum {
+    vec3 sum;       // of any length
+    float weights;  // of this sum
+    float spread;   // mean square of the distance of their places along the surface, voxels^2
+};
+
+// By how much normals turn per voxel, rad: their variance is that of the places times the square of it.
+float curvatureOf(NormalSum bent) {
+    float together = dot(bent.sum, bent.sum) / max(bent.weights * bent.weights, 1e-12);
+    return bent.weights > 0.0 ? sqrt(max(1.0 - together, 0.0) / max(bent.spread, 0.1)) : 0.0;
+}
+
+// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent` is found with CACHE_NORMALS 1. Which of the eight voxels are
 // there is asked first, then only those are visited, and of their faces those that count: on a wall four of
 // eight voxels and one face each (platform figures: docs/theory/4e_pixels.md, "The cache at pixels").
-vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out NormalSum bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
@@ -45,7 +57,7 @@ vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     }
     corners = wanted ? corners : 0u;
     vec4 sum = vec4(0.0);
-    bent = vec3(0.0);
+    bent = NormalSum(vec3(0.0), 0.0, dot(part * (1.0 - part), 1.0 - square));
     do {
         bool any = corners != 0u;
         COUNT_LOOKUP(any ? 2 : 0);
@@ -70,7 +82,9 @@ vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
 #if CACHE_NORMALS
             COUNT_LOOKUP(left != 0u ? 1 : 0);
             vec3 turned = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x));
-            bent += weight * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
+            float same = weight * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0);
+            bent.sum += same * turned;
+            bent.weights += same;
 #endif
             RECORD_CACHE_FACE(GRID_POINT(point), face, weight, irradiance);
             left ^= lowest;
@@ -83,7 +97,7 @@ vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
 #if NESTED_GRIDS
 // In the level that holds the point. Where it has nothing there, the point lies on a border by rounding: the surface is
 // in the next coarser level, or the next finer one.
-vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out NormalSum bent) {
     int own = levelAt(point);
     vec4 found;
     int attempt = 0;
@@ -96,12 +110,12 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     return found;
 }
 #else
-vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out NormalSum bent) {
     return irradianceInGrid(point, normal, wanted, bent);
 }
 #endif
 
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
-    vec3 bent;
+    NormalSum bent;
     return cachedIrradiance(point, normal, wanted, bent);
 }

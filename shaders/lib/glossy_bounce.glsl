@@ -55,6 +55,7 @@ struct GlossyBounce {
     Ray ray;              // drawn from the lobe
     vec3 weight;          // BRDF times cosine over density
     float alpha;          // width of the lobe
+    float pdf;            // density per steradian
     float specularShare;  // share of the surface's albedo that is its lobe's
 };
 
@@ -76,6 +77,7 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
     GlossyBounce next;
     next.alpha = alpha;
     vec3 direction = lobeDirection(b, g.shadingNormal, -ray.direction, g.xi, next.weight);
+    next.pdf = lobePdf(b, g.shadingNormal, -ray.direction, direction);
     direction -= 2.0 * min(dot(direction, surface.normal), 0.0) * surface.normal;
     vec3 point = ray.origin + hit.t * ray.direction;
     next.ray = Ray(rayOrigin(point, surface.normal), direction, 1e9, surface.normal);

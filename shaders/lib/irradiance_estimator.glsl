@@ -189,8 +189,8 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
 
         // Intersect the voxels and follow glossy bounces
         VoxelHit hit;
-        PathSettings path =
-            PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp, 0.0);
+        PathSettings path = PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha,
+                                         settings.fireflyClamp, 0.0, 0.0);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
         float skyPdf = 0.0;

@@ -21,7 +21,8 @@ LightRow lightRowAt(vec3 point, vec3 normal) {
 // A random entry of the pool of a random cluster of the row at a place in the list of rows: a face, and LIGHT_MOVED. Evenly spread numbers are spread over
 // the scene, those of one cluster over its pool.
 uint drawLightFace(float xi, uint at) {
-    uint faces = texelFetch(lightSamples, LIGHT_POOL_FACES_AT).x, slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;
+    uint faces = texelFetch(lightSamples, LIGHT_POOL_FACES_AT).x,
+         slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;
     float place = xi * float(slots);
     uint slot = min(uint(place), slots - 1u);
     uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (at * slots + slot) / 2u)).x;
@@ -93,7 +94,8 @@ float lightFacePdf(Ray ray, VoxelHit hit, LightRow lights) {
 #else
     vec3 point = ray.origin + hit.t * ray.direction - vec3(unpackVoxel(r.w));
 #endif
-    LightCell cluster = clusterOfFace(r, n), cell = cellOfRow(lights.row, texelFetch(lightSamples, LIGHT_SHIFT_AT).x);
+    LightCell cluster = clusterOfFace(r, n),
+              cell = cellOfRow(lights.row, texelFetch(lightSamples, LIGHT_SHIFT_AT).x);
     LightBounds sender =
         lightBounds(cluster, texelFetch(lightSamples, LIGHT_CLUSTER_EXTENTS_AT + cluster.row).x);
     LightBounds getter = lightBounds(cell, texelFetch(lightSamples, LIGHT_CELL_EXTENTS_AT + cell.row).x);

@@ -28,6 +28,7 @@ struct TrianglePoint {
     vec3 geometricNormal;  // unit, against the ray
     vec3 shadingNormal;    // interpolated between the vertices, on the same side
     float twiceArea;
+    float curvature;  // of the vertices' normals, rad per voxel
 };
 
 TrianglePoint trianglePoint(Ray ray, VoxelHit hit) {
@@ -41,14 +42,21 @@ TrianglePoint trianglePoint(Ray ray, VoxelHit hit) {
     // Interpolate the shading normal
     vec3 at = vec3(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
     uvec3 v = triangleVertices(hit.triangle, c.instance);
-    vec3 object = at.x * octDecode(unpackSnorm2x16(vertices[v.x].normalOct)) +
-                  at.y * octDecode(unpackSnorm2x16(vertices[v.y].normalOct)) +
-                  at.z * octDecode(unpackSnorm2x16(vertices[v.z].normalOct));
+    mat3 own = mat3(octDecode(unpackSnorm2x16(vertices[v.x].normalOct)),
+                    octDecode(unpackSnorm2x16(vertices[v.y].normalOct)),
+                    octDecode(unpackSnorm2x16(vertices[v.z].normalOct)));
+    vec3 object = own * at;
     vec3 shadingNormal = normalize(instances[c.instance].normalColumn0.xyz * object.x +
                                    instances[c.instance].normalColumn1.xyz * object.y +
                                    instances[c.instance].normalColumn2.xyz * object.z);
     shadingNormal = dot(shadingNormal, normal) < 0.0 ? -shadingNormal : shadingNormal;
-    return TrianglePoint(c.instance, v, at, normal, shadingNormal, twiceArea);
+
+    // Compute how fast it turns
+    vec3 turn1 = own[1] - own[0], turn2 = own[2] - own[0];
+    float turned = dot(turn1, turn1) + dot(turn2, turn2);
+    float apart = dot(c.edge1, c.edge1) + dot(c.edge2, c.edge2);
+    float curvature = sqrt(turned / max(apart, 1e-20));
+    return TrianglePoint(c.instance, v, at, normal, shadingNormal, twiceArea, curvature);
 }
 
 // The material there; textures are filtered over the footprint of the ray.
@@ -154,12 +162,14 @@ vec3 faceReflected(int face, vec3 directRadiance) {
 
 // Outgoing radiance at the point as if it were diffuse, as hitRadiance. `s` becomes the shading of the point,
 // but for its directRadiance.
-vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s, out vec3 shadingNormal) {
+vec3 triangleRadiance(Ray ray, VoxelHit hit, inout Footprint footprint, inout FaceShading s,
+                      out vec3 shadingNormal) {
     // Look up the material
     TrianglePoint p = trianglePoint(ray, hit);
     TriangleMaterial m = triangleMaterial(p, hit);
     hitTriangle = TriangleSurface(p.geometricNormal, m.lobe, m.lampEmission);
     shadingNormal = p.shadingNormal;
+    meetSurface(footprint, ray, hit.t, p.geometricNormal, p.curvature);
     vec3 faceAlbedo = s.albedo;
     s.albedo = m.albedo;
 
@@ -174,7 +184,7 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s
     vec3 irradiance = vec3(0.0);
 #if EXACT_DIRECT
     direct =
-        reflectedPunctual(s.albedo, m.lobe, widening,
+        reflectedPunctual(s.albedo, m.lobe, footprint.alpha2,
                           Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, vec2(0.0)));
 #endif
     addTriangleRects(p, position, hit, irradiance);

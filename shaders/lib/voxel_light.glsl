@@ -93,13 +93,37 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 }
 #endif
 
+// Less steeply a surface is met as at this cosine.
+const float kLeastFootprintCosine = 0.1;
+
+// So many pixels' rays the filter between pixels brings together: those of 3x3 weighted 1 2 1, where a surface is even.
+const float kPixelsTogether = 7.0;
+
+// The cone that is a ray's share of all that are averaged, and what the lobes that it meets are widened by.
+struct Footprint {
+    float angle;   // rad; 0: unknown
+    float radius;  // voxels, where the ray starts
+    float alpha2;  // added to the square of the alpha of lobes
+};
+
+// What a lobe does to the middle of a footprint it must do to all of it: over it the normal turns by the curvature, rad per
+// voxel, and the ray itself does (docs/theory/4f_glossy.md, (4.64)). Afterwards the footprint is that of the mirrored cone.
+void meetSurface(inout Footprint footprint, Ray ray, float t, vec3 normal, float curvature) {
+    if (footprint.angle <= 0.0) return;
+    footprint.radius += max(t, 0.0) * footprint.angle;
+    float slope = 0.5 * footprint.angle +
+                  curvature * footprint.radius / max(abs(dot(ray.direction, normal)), kLeastFootprintCosine);
+    footprint.alpha2 = min(0.5 * slope * slope, 1.0);
+    footprint.angle = 2.0 * slope;
+}
+
 #include "lib/cached_part.glsl"
 #include "lib/triangle_surface.glsl"
 
 // Outgoing radiance at a hit as if all metals were diffuse; the sky for a miss, over an angle of `width`.
 // In: the shading of the face that was hit. Out: its irradiance at the point, and the shading normal there.
-// `widening`: of the lobes of dielectrics.
-vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceShading s,
+// `footprint`: of the ray; out: as it is mirrored.
+vec3 hitRadiance(Ray ray, VoxelHit hit, float width, inout Footprint footprint, inout FaceShading s,
                  out vec3 shadingNormal) {
     int face = max(hit.face, 0);
     CACHED_SHARE(0.0);
@@ -112,15 +136,17 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     vec3 normal = faceNormalOf(face);
     shadingNormal = normal;
 #if TRIANGLE_HITS
-    if (hit.triangle >= 0) return triangleRadiance(ray, hit, widening, s, shadingNormal);
+    if (hit.triangle >= 0) return triangleRadiance(ray, hit, footprint, s, shadingNormal);
 #endif
 #if EXACT_DIRECT || SMOOTH_HITS
     vec3 point = ray.origin + (hit.face >= 0 ? hit.t : 0.0) * ray.direction;
 #endif
 #if SMOOTH_HITS
     // Interpolate the cache and the normal
-    vec4 cached = cachedIrradiance(point, normal, hit.face >= 0, shadingNormal);
-    shadingNormal = dot(shadingNormal, shadingNormal) > 0.0 ? normalize(shadingNormal) : normal;
+    NormalSum bent;
+    vec4 cached = cachedIrradiance(point, normal, hit.face >= 0, bent);
+    shadingNormal = bent.weights > 0.0 ? normalize(bent.sum) : normal;
+    meetSurface(footprint, ray, hit.t, normal, curvatureOf(bent) / faceEdge(face));
     s.irradiance = cached.a > 0.0 ? cached.rgb : s.irradiance;
 #endif
 #if EXACT_DIRECT
@@ -141,7 +167,7 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     veilNear = lift.x > 0.0 ? kVeilNearVoxels * faceEdge(face) * grid.voxelSize : 0.0;
 #endif
     vec3 direct =
-        reflectedPunctual(s.albedo, lobe, widening,
+        reflectedPunctual(s.albedo, lobe, footprint.alpha2,
                           Receiver(worldFromGrid(point), shadingNormal, normal, -ray.direction, lift));
     vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + direct + s.albedo * s.irradiance;
 #else
@@ -199,6 +225,7 @@ struct PathSettings {
     float alpha;           // width of the distribution that the ray was drawn from, as a GGX alpha
     float fireflyClamp;    // bound of radiance by reflection, over the diffuse radiance of the first hit
     float skyWidth;        // a ray that hits nothing sees the sky over this angle, rad
+    float footprint;  // radius of the cone that is a ray's share of all that are averaged, rad; 0: unknown
 };
 
 #include "lib/glossy_bounce.glsl"
@@ -207,8 +234,8 @@ struct PathSettings {
 const float kCosineAlpha = 0.5;
 // Reflected rays see the sky over this share of the alpha of all lobes on their way: a few find a small sun.
 const float kSkyBlur = 0.5;
-// Variance of a lobe's width grows by this share of that of the lobes before it, over PathSettings'
-// fireflyClamp: features that few rays would find in a narrow lobe, many rays see blurred.
+// Where footprints are unknown: variance of a lobe's width grows by this share of that of the lobes before it, over
+// PathSettings' fireflyClamp: features that few rays would find in a narrow lobe, many rays see blurred.
 const float kLobeWidening = 12.0;
 
 // Whether rays come from a lobe that shows lamps by what rays hit (kNarrowLobe). Of all but glass: where a
@@ -221,6 +248,7 @@ struct PathState {
     int bounce;
     vec3 throughput;
     float alpha2;  // variance of all lobes on the way
+    Footprint footprint;
     bool fromNarrowLobe;
     int turns;
 };
@@ -235,14 +263,14 @@ struct PathVertex {
 };
 
 // Evaluates the surface at a hit and samples its lobe.
-PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state, inout uint random) {
+PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, inout PathState state, inout uint random) {
     // Evaluate the hit as if it were diffuse
     PathVertex vertex;
     FaceShading s = faceShading(max(hit.face, 0));
     vec3 shadingNormal;
     float skyWidth = state.bounce == 0 ? path.skyWidth : kSkyBlur * sqrt(state.alpha2);
-    float widening = state.alpha2 * kLobeWidening / path.fireflyClamp;
-    vertex.radiance = hitRadiance(ray, hit, skyWidth, widening, s, shadingNormal);
+    state.footprint.alpha2 = state.alpha2 * kLobeWidening / path.fireflyClamp;
+    vertex.radiance = hitRadiance(ray, hit, skyWidth, state.footprint, s, shadingNormal);
 
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
@@ -262,19 +290,19 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     vec2 xi = vec2(randomNext(random), randomNext(random));
 #if EXECUTION_GPU
     if (!vertex.metal) {  // the path ends here, by its radiance alone
-        vertex.next = GlossyBounce(vec3(0.0), ray, vec3(0.0), 0.0, 0.0);
+        vertex.next = GlossyBounce(vec3(0.0), ray, vec3(0.0), 0.0, 0.0, 0.0);
         vertex.lobeIrradiance = vec3(0.0);
         return vertex;
     }
 #endif
-    vertex.next =
-        sampleGlossyBounce(ray, hit, s, surface, GlossySample(widening, vertex.radiance, shadingNormal, xi));
+    vertex.next = sampleGlossyBounce(
+        ray, hit, s, surface, GlossySample(state.footprint.alpha2, vertex.radiance, shadingNormal, xi));
     vertex.lobeIrradiance = vertex.next.specularShare * s.albedo * s.irradiance;
 #if NEAR_TRIANGLES
     vertex.turns = !vertex.metal && path.targetDistance < 0.0 && turnsAt(ray, hit, state.turns);
     if (vertex.turns) {
         vec3 sent = withoutCached(vertex.radiance, s);
-        vertex.next = GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 0.0);
+        vertex.next = GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 1.0, 0.0);
     }
 #endif
     vertex.goesOn = vertex.metal || vertex.turns;
@@ -287,14 +315,15 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit firstHit) {
     vec3 sum = vec3(0.0), throughput = vec3(1.0);
     float most = 0.0;
-    float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
+    Footprint footprint =
+        Footprint(path.footprint, 0.0, path.alpha * path.alpha * kLobeWidening / path.fireflyClamp);
     int turns = 0;
     bool goesOn;
     do {
         VoxelHit hit = traceVoxels(ray);
         FaceShading s = faceShading(max(hit.face, 0));
         vec3 shadingNormal;
-        vec3 radiance = hitRadiance(ray, hit, path.skyWidth, widening, s, shadingNormal);
+        vec3 radiance = hitRadiance(ray, hit, path.skyWidth, footprint, s, shadingNormal);
         goesOn = path.targetDistance < 0.0 && turnsAt(ray, hit, turns);
         if (turns == 0) {
             firstHit = hit;
@@ -311,6 +340,19 @@ vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit
 }
 #endif
 
+#if LOBES
+// Updates the throughput and the width of the path's lobe.
+void bounce(inout PathState state, GlossyBounce next, PathSettings path) {
+    state.throughput *= next.weight;
+    state.alpha2 += next.alpha * next.alpha;
+    float angle = state.footprint.angle;
+    float drawn = 1.0 / (kGatherPi * kPixelsTogether * path.fireflyClamp * max(next.pdf, 1e-6));
+    state.footprint.angle = angle > 0.0 ? sqrt(angle * angle + drawn) : 0.0;
+    state.fromNarrowLobe = next.alpha < kNarrowLobe;
+    ++state.bounce;
+}
+#endif
+
 // Radiance along a ray (hitRadiance), and its first hit. With LOBES the path is reflected by metals, up to
 // maxBounces times. At its end a metal reflects lights in its lobe, and all other light as if diffuse.
 //
@@ -324,13 +366,15 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
     firstHit = traceVoxels(ray);
     FaceShading s = faceShading(max(firstHit.face, 0));
     vec3 shadingNormal;
-    float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
-    return hitRadiance(ray, firstHit, path.skyWidth, widening, s, shadingNormal);
+    Footprint footprint =
+        Footprint(path.footprint, 0.0, path.alpha * path.alpha * kLobeWidening / path.fireflyClamp);
+    return hitRadiance(ray, firstHit, path.skyWidth, footprint, s, shadingNormal);
 #else
     vec3 firstRadiance = vec3(0.0);
     vec3 reflectedRadiance = vec3(0.0);
     float maxReflected = 0.0;
-    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, pathStartsNarrow, 0);
+    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, Footprint(path.footprint, 0.0, 0.0),
+                                pathStartsNarrow, 0);
     bool continues;
     do {
         // Intersect the voxels: here alone, as a kernel that has this twice is half as large again
@@ -354,12 +398,10 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         vec3 contribution = state.throughput * (vertex.goesOn ? next.radiance : vertex.radiance);
         firstRadiance += first ? contribution : vec3(0.0);
         reflectedRadiance += first ? vec3(0.0) : contribution;
-        maxReflected = first ? path.fireflyClamp * brightness(vertex.radiance) : maxReflected;
+        float mostTimes = path.fireflyClamp * (path.footprint > 0.0 ? kPixelsTogether : 1.0);
+        maxReflected = first ? mostTimes * brightness(vertex.radiance) : maxReflected;
 
-        // Update the throughput and the width of the path's lobe
-        state.throughput *= next.weight;
-        state.alpha2 += next.alpha * next.alpha;
-        state.fromNarrowLobe = next.alpha < kNarrowLobe;
+        bounce(state, next, path);
         continues = continues && state.throughput.r + state.throughput.g + state.throughput.b > 0.0;
 #if TRIANGLE_HITS
         bool sharp = rayCone.width >= 0.0 && state.alpha2 <= kTriangleAlpha * kTriangleAlpha;
@@ -368,7 +410,6 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
 #endif
 
         ray = next.ray;
-        ++state.bounce;
         state.turns += vertex.turns ? 1 : 0;
     } while (continues);
 

@@ -69,11 +69,12 @@ void mark(uint place, uvec3 bits) {
 
 // Marks the cell in which rays from the face will look for light samples, and if it is lit the cluster that it is of.
 void markLight(uvec4 hitTexel, vec3 normal, bool lit) {
+    vec3 onPlane = 0.5 + unpackOffset(hitTexel.y) * normal;
 #if NESTED_GRIDS
     vec4 place = voxelPlace(hitTexel.w);
-    vec3 middle = place.xyz + 0.5 * place.w;
+    vec3 middle = place.xyz + place.w * onPlane;
 #else
-    vec3 middle = vec3(unpackVoxel(hitTexel.w)) + 0.5;
+    vec3 middle = vec3(unpackVoxel(hitTexel.w)) + onPlane;
 #endif
     LightCell cell = cellAt(middle, normal, cellShift(cache.update, cache.seed));
     mark(3u * uint(cell.row), extentBits(cell, middle));

@@ -31,7 +31,7 @@
 #define LIGHT_ROOM 1024u           // rows and clusters that can have so many
 // Of the faces one in so many marks its cell and its cluster, eight side by side: where all are missed, the row of all is
 // drawn from once, and clusters are taken to be whole blocks.
-#define LIGHT_MARKED_PERIOD 4u
+#define LIGHT_MARKED_PERIOD 2u
 // Marks: three words of bits for each row, and for each cluster (packExtents).
 #define LIGHT_CLUSTER_MARKS_AT (3 * LIGHT_CLUSTERS)
 #define LIGHT_MARK_WORDS (2 * LIGHT_CLUSTER_MARKS_AT)
