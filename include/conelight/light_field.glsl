@@ -299,7 +299,13 @@ layout(binding = CONELIGHT_FIRST_TEXTURE + 4) uniform usamplerBuffer conelight_f
 
 const float conelight_kLeastAxis = 1e-3;
 
-vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+struct conelight_NormalSum {
+    vec3 sum;
+    float weights;
+    float spread;
+};
+
+vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out conelight_NormalSum bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
@@ -316,7 +322,7 @@ vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 b
     }
     corners = wanted ? corners : 0u;
     vec4 sum = vec4(0.0);
-    bent = vec3(0.0);
+    bent = conelight_NormalSum(vec3(0.0), 0.0, conelight_dot(part * (1.0 - part), 1.0 - square));
     do {
         bool any = corners != 0u;
         int i = max(findLSB(corners), 0);
@@ -345,12 +351,12 @@ vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 b
     return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
 }
 
-vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out conelight_NormalSum bent) {
     return conelight_irradianceInGrid(point, normal, wanted, bent);
 }
 
 vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
-    vec3 bent;
+    conelight_NormalSum bent;
     return conelight_cachedIrradiance(point, normal, wanted, bent);
 }
 
