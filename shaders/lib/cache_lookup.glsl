@@ -36,9 +36,9 @@ float curvatureOf(NormalSum bent) {
     return bent.weights > 0.0 ? sqrt(max(1.0 - together, 0.0) / max(bent.spread, 0.1)) : 0.0;
 }
 
-// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent` is found with CACHE_NORMALS 1. Which of the eight voxels are
-// there is asked first, then only those are visited, and of their faces those that count: on a wall four of
-// eight voxels and one face each (platform figures: docs/theory/4e_pixels.md, "The cache at pixels").
+// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent` is found with CACHE_NORMALS 1.
+// Which of the eight voxels are there is asked first, then only those are visited, and of their faces those that
+// count: on a wall four of eight voxels and one face each (platform figures: docs/theory/4e_pixels.md, "The cache at pixels").
 vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out NormalSum bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;

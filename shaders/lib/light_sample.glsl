@@ -18,8 +18,8 @@ LightRow lightRowAt(vec3 point, vec3 normal) {
                     uintBitsToFloat(texelFetch(lightSamples, LIGHT_INVERSE_FLUX_AT).x));
 }
 
-// A random entry of the pool of a random cluster of the row at a place in the list of rows: a face, and LIGHT_MOVED. Evenly spread numbers are spread over
-// the scene, those of one cluster over its pool.
+// A random entry of the pool of a random cluster of a row: a face, and LIGHT_MOVED. `at`: place in the list of rows. Evenly
+// spread numbers are spread over the scene, those of one cluster over its pool.
 uint drawLightFace(float xi, uint at) {
     uint faces = texelFetch(lightSamples, LIGHT_POOL_FACES_AT).x,
          slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;

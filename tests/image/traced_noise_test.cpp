@@ -363,7 +363,7 @@ TEST_F(TracedNoiseTest, LightOutsideLeavesRoomsQuiet) {
             settings.traced.cacheUpdates = updates;
             const Image image = draw(scene, settings);
             EXPECT_LT(relRmse(image, truth), 0.35) << updates << (shines ? ", with its outside" : ", alone");
-            EXPECT_NEAR(meanOf(image) / meanOf(truth), 1.0, 0.03) << updates;
+            EXPECT_NEAR(meanOf(image) / meanOf(truth), 1.0, 0.02) << updates;
         }
     }
 }
