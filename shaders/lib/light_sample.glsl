@@ -18,17 +18,21 @@ LightRow lightRowAt(vec3 point, vec3 normal) {
                     uintBitsToFloat(texelFetch(lightSamples, LIGHT_INVERSE_FLUX_AT).x));
 }
 
-// A random entry of the pool of a random cluster of a row: a face, and LIGHT_MOVED. `at`: place in the list of rows. Evenly
+// A random entry of the pool of a random cluster of a row: a face, and LIGHT_MOVED. `row`: place in the list of rows. Evenly
 // spread numbers are spread over the scene, those of one cluster over its pool.
-uint drawLightFace(float xi, uint at) {
-    uint faces = texelFetch(lightSamples, LIGHT_POOL_FACES_AT).x,
-         slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;
+uint drawLightFace(float xi, uint row) {
+    uint slots = texelFetch(lightSamples, LIGHT_SLOT_COUNT_AT).x;
     float place = xi * float(slots);
     uint slot = min(uint(place), slots - 1u);
-    uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (at * slots + slot) / 2u)).x;
+    uint word = texelFetch(lightSamples, int(uint(LIGHT_SLOTS_AT) + (row * slots + slot) / 2u)).x;
     uint cluster = (slot & 1u) != 0u ? word >> 16 : word & 0xffffu;
-    uint entry = uint((place - float(slot)) * float(faces)) + 11u * (slot >> 3) + 4u * (slot & 7u);
-    return texelFetch(lightSamples, int(uint(LIGHT_POOLS_AT) + cluster * faces + (entry & (faces - 1u)))).x;
+    uint pool = texelFetch(lightSamples, int(uint(LIGHT_CLUSTER_POOLS_AT) + cluster)).x;
+    uint shift = pool & 15u;
+    // Slots of one cluster begin at different parts of its pool, of 32.
+    uint part = (11u * (slot >> 3) + 4u * (slot & 7u)) & 31u;
+    uint entry = uint((place - float(slot)) * float(1u << shift)) + ((part << shift) >> 5);
+    uint at = (pool >> 4) + (entry & ((1u << shift) - 1u));
+    return texelFetch(lightSamples, int(uint(LIGHT_POOLS_AT) + at)).x;
 }
 
 struct LightSample {

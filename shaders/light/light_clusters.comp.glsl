@@ -43,11 +43,11 @@ float fluxOfCluster(int cluster) {
     return sum;
 }
 
-// What each of so many gets of the room, a power of two.
-uint sizeFor(uint count, uint most) {
-    uint size = most;
-    while (count * size > LIGHT_ROOM * most) size /= 2u;
-    return size;
+// Slots of each of so many rows, a power of two.
+uint slotsFor(uint rows) {
+    uint slots = LIGHT_MOST_SLOTS;
+    while (rows * slots > LIGHT_ROOM * LIGHT_MOST_SLOTS) slots /= 2u;
+    return slots;
 }
 
 void main() {
@@ -76,6 +76,7 @@ void main() {
             lightTable[LIGHT_CELL_EXTENTS_AT + first + i] = packExtents(marksAt(3 * (first + i)));
         }
         lightTable[LIGHT_SCALES_AT + first + i] = 0u;
+        lightTable[LIGHT_CLUSTER_POOLS_AT + first + i] = 0u;  // slots so far
         lightTable[LIGHT_PLACES_AT + first + i] = LIGHT_PLACE_OF_ALL;
     }
     if (gl_LocalInvocationIndex != 0u) return;
@@ -85,8 +86,7 @@ void main() {
     rowList[1] = uint(LIGHT_ROW_OF_ALL);
     lightTable[LIGHT_INVERSE_FLUX_AT] = floatBitsToUint(total.z > 0.0 ? 1.0 / total.z : 0.0);
     lightTable[LIGHT_SHIFT_AT] = cellShift(cache.update, cache.seed);
-    lightTable[LIGHT_POOL_FACES_AT] = sizeFor(uint(total.x), LIGHT_MOST_POOL_FACES);
-    lightTable[LIGHT_SLOT_COUNT_AT] = sizeFor(1u + uint(total.y), LIGHT_MOST_SLOTS);
+    lightTable[LIGHT_SLOT_COUNT_AT] = slotsFor(1u + uint(total.y));
     lightTable[LIGHT_SCALES_AT + LIGHT_ROW_OF_ALL] = 0u;
     lightTable[LIGHT_PLACES_AT + LIGHT_ROW_OF_ALL] = LIGHT_PLACE_OF_ALL;
 }

@@ -9,6 +9,7 @@ layout(std140) uniform CacheBlock { CacheConstants cache; };
 uniform samplerBuffer runFluxes;
 uniform usamplerBuffer clusterList;
 uniform samplerBuffer clusterPlaces;
+uniform usamplerBuffer lightSamples;  // the table, of which pools are written
 layout(std430) buffer LightTable { uint lightTable[]; };
 
 // The run of a cluster up to which there is more flux than `wanted`, and what is before it.
@@ -45,14 +46,26 @@ int faceAt(int run, uint side, float sum, float wanted) {
     return found;
 }
 
+// The last listed cluster whose pool begins at an entry or before.
+uint clusterOfEntry(uint entry) {
+    uint low = 0u, end = max(texelFetch(clusterList, 0).x, 1u);
+    do {
+        uint middle = (low + end) / 2u;
+        bool begins = texelFetch(lightSamples, int(uint(LIGHT_CLUSTER_POOLS_AT) + middle)).x >> 4 <= entry;
+        low = begins ? middle : low;
+        end = begins ? end : middle;
+    } while (end - low > 1u);
+    return low;
+}
+
 void main() {
     uint index = linearIndex();
-    uint faces = lightTable[LIGHT_POOL_FACES_AT];
-    uint place = index / faces, entry = index % faces;
-    if (place >= texelFetch(clusterList, 0).x) return;
+    uint place = clusterOfEntry(index);
+    uint pool = texelFetch(lightSamples, int(uint(LIGHT_CLUSTER_POOLS_AT) + place)).x;
+    uint faces = 1u << (pool & 15u), entry = index - (pool >> 4);
+    if (texelFetch(clusterList, 0).x == 0u || entry >= faces) return;
     int cluster = int(texelFetch(clusterList, int(1u + place)).x);
-    uint at = uint(cluster) * LIGHT_MOST_POOL_FACES + entry;
-    uint state = drawSeed(at, cache.update, cache.seed);
+    uint state = drawSeed(uint(cluster) << LIGHT_MOST_POOL_SHIFT | entry, cache.update, cache.seed);
     float part = texelFetch(clusterPlaces, int(2u * place)).w / float(faces);
     float wanted = (float(entry) + randomNext(state)) * part;
     float before = 0.0;

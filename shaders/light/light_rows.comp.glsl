@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Draws the slots of each listed row from the clusters that send light, by what they bring to its cell were nothing in
-// between, and those of the row of all by flux (lib/light_cells.glsl). One invocation per row: lists of clusters are short.
+// between, and those of the row of all by flux (lib/light_cells.glsl). Counts the slots of each cluster. One invocation per row: lists of clusters are short.
 layout(local_size_x = 64) in;
 #include "lib/light_cells.glsl"
 #include "lib/linear_index.glsl"
@@ -54,6 +54,7 @@ void main() {
     do {
         vec2 one = gainAndFlux(cell, i);
         sum += shareOfCluster(one.x, scale) * one.y;
+        uint begin = slot;
         // Rounding leaves no slot empty.
         while (slot < slots && (sum > wanted || i + 1 == count)) {
             word = (slot & 1u) != 0u ? word | uint(i) << 16 : uint(i);
@@ -61,5 +62,6 @@ void main() {
             wanted += step;
             ++slot;
         }
+        if (slot > begin) atomicAdd(lightTable[LIGHT_CLUSTER_POOLS_AT + i], slot - begin);
     } while (++i < count);
 }

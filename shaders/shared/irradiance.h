@@ -25,29 +25,32 @@
 #define LIGHT_ROWS (LIGHT_CLUSTERS + 1)
 #define LIGHT_ROW_OF_ALL LIGHT_CLUSTERS
 #define LIGHT_PLACE_OF_ALL 0u  // in the list of rows
-// Room for rows and pools: the fewer are in use, the larger they are, from these sizes down.
-#define LIGHT_MOST_SLOTS 128u      // of a row
-#define LIGHT_MOST_POOL_FACES 32u  // of a cluster
-#define LIGHT_ROOM 1024u           // rows and clusters that can have so many
+// Room for rows: the fewer are in use, the larger they are, from this size down.
+#define LIGHT_MOST_SLOTS 128u  // of a row
+#define LIGHT_ROOM 1024u       // rows that can have so many
+// Room for all pools, entries. A pool is as large as its part of all slots, within these powers of two.
+#define LIGHT_POOL_ENTRIES 32768u
+#define LIGHT_LEAST_POOL_SHIFT 3u
+#define LIGHT_MOST_POOL_SHIFT 10u
 // Of the faces one in so many marks its cell and its cluster, eight side by side: where all are missed, the row of all is
 // drawn from once, and clusters are taken to be whole blocks.
 #define LIGHT_MARKED_PERIOD 2u
 // Marks: three words of bits for each row, and for each cluster (packExtents).
 #define LIGHT_CLUSTER_MARKS_AT (3 * LIGHT_CLUSTERS)
 #define LIGHT_MARK_WORDS (2 * LIGHT_CLUSTER_MARKS_AT)
-// Words of lightSamples: four about all; then a scale per row, place per row, extents per row, extents per cluster; slots of
-// rows, pools of clusters, both in the order of their lists.
+// Words of lightSamples: three about all; then a scale per row, place per row, extents per row, extents per cluster; pool
+// of each listed cluster (first entry * 16 + exponent of the size), slots of rows, entries of pools, all in the order of lists.
 #define LIGHT_INVERSE_FLUX_AT 0  // 1 / flux of all faces as a float, per voxel side; 0: nothing sends light
 #define LIGHT_SHIFT_AT 1         // by how much cells are moved (cellShift)
-#define LIGHT_POOL_FACES_AT 2    // faces of a pool
-#define LIGHT_SLOT_COUNT_AT 3    // slots of a row
-#define LIGHT_SCALES_AT 4
+#define LIGHT_SLOT_COUNT_AT 2    // slots of a row
+#define LIGHT_SCALES_AT 3
 #define LIGHT_PLACES_AT (LIGHT_SCALES_AT + LIGHT_ROWS)
 #define LIGHT_CELL_EXTENTS_AT (LIGHT_PLACES_AT + LIGHT_ROWS)
 #define LIGHT_CLUSTER_EXTENTS_AT (LIGHT_CELL_EXTENTS_AT + LIGHT_CLUSTERS)
-#define LIGHT_SLOTS_AT (LIGHT_CLUSTER_EXTENTS_AT + LIGHT_CLUSTERS)
+#define LIGHT_CLUSTER_POOLS_AT (LIGHT_CLUSTER_EXTENTS_AT + LIGHT_CLUSTERS)
+#define LIGHT_SLOTS_AT (LIGHT_CLUSTER_POOLS_AT + LIGHT_CLUSTERS)
 #define LIGHT_POOLS_AT (LIGHT_SLOTS_AT + LIGHT_ROOM * LIGHT_MOST_SLOTS / 2)
-#define LIGHT_SAMPLE_WORDS (LIGHT_POOLS_AT + LIGHT_ROOM * LIGHT_MOST_POOL_FACES)
+#define LIGHT_SAMPLE_WORDS (LIGHT_POOLS_AT + LIGHT_POOL_ENTRIES)
 // An entry of a pool is a face, and whether its bounds are moved the other way (kMovedBoundsPeriod).
 #define LIGHT_MOVED 0x80000000u
 

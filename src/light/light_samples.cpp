@@ -69,12 +69,13 @@ base::Steps LightSamples::drawInSteps(const gl::Device& device, const voxels::Su
         .texture("clusterPlaces", clusterPlaceTexels_)
         .storage("RowList", rowList_)
         .texture("rowList", rowListTexels_)
-        .storage("LightTable", samples_);
-    const std::pair<const char*, std::size_t> passes[] = {
-        {"bricks", runCount_},
-        {"clusters", 1},
-        {"pools", std::size_t{LIGHT_ROOM} * LIGHT_MOST_POOL_FACES},
-        {"rows", LIGHT_ROWS}};
+        .storage("LightTable", samples_)
+        .texture("lightSamples", sampleTexels_);
+    const std::pair<const char*, std::size_t> passes[] = {{"bricks", runCount_},
+                                                          {"clusters", 1},
+                                                          {"rows", LIGHT_ROWS},
+                                                          {"pool_size", 1},
+                                                          {"pools", std::size_t{LIGHT_POOL_ENTRIES}}};
     for (const auto& [name, invocations] : passes) {
         device.get(drawPass(name)).dispatchLinear(given, invocations);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
@@ -85,7 +86,8 @@ base::Steps LightSamples::drawInSteps(const gl::Device& device, const voxels::Su
 void LightSamples::declare(gl::Inputs& inputs) const { inputs.texture("lightSamples", sampleTexels_); }
 
 std::vector<gl::ProgramDesc> LightSamples::programDescs() {
-    return {drawPass("bricks"), drawPass("clusters"), drawPass("pools"), drawPass("rows")};
+    return {drawPass("bricks"), drawPass("clusters"), drawPass("rows"), drawPass("pool_size"),
+            drawPass("pools")};
 }
 
 }  // namespace conelight::light

@@ -107,15 +107,17 @@ TEST_F(LightSamplesTest, PoolsAndTheRowOfAllAreDrawnByFlux) {
                 1.01)
                 << cluster;
         int looked = 0;
-        const std::size_t faces = drawn.words[LIGHT_POOL_FACES_AT];
         for (std::size_t place = 0; drawn.clusterAt(place) >= 0; ++place) {
             const int cluster = drawn.clusterAt(place);
             const double flux = drawn.fluxOfCluster.at(cluster);
             if (flux < 1e-6 * drawn.total) continue;
             ++looked;
+            const std::uint32_t pool = drawn.words[LIGHT_CLUSTER_POOLS_AT + place];
+            const std::size_t faces = std::size_t{1} << (pool & 15u);
+            ASSERT_LE((pool >> 4) + faces, LIGHT_POOL_ENTRIES);
             std::map<std::size_t, int> entries;
             for (std::size_t i = 0; i < faces; ++i)
-                ++entries[drawn.words[LIGHT_POOLS_AT + place * faces + i] & ~LIGHT_MOVED];
+                ++entries[drawn.words[LIGHT_POOLS_AT + (pool >> 4) + i] & ~LIGHT_MOVED];
             for (const auto& [face, count] : entries) {
                 ASSERT_LT(face, drawn.records.size());
                 ASSERT_EQ(drawn.clusters[face], cluster);
@@ -125,6 +127,38 @@ TEST_F(LightSamplesTest, PoolsAndTheRowOfAllAreDrawnByFlux) {
         }
         EXPECT_GT(looked, 50);
     }
+}
+
+// Stills keep the pools of the last update: those that many slots name have many faces, and all have room.
+TEST_F(LightSamplesTest, PoolsAreAsLargeAsTheirPartOfAllSlots) {
+    CacheRig rig(programs(), roomInHouse(), 96);
+    shine(rig);
+    const Drawn drawn(rig);
+    std::map<int, int> slotsOfCluster;
+    int slots = 0;
+    for (std::size_t row = 0; row < LIGHT_ROWS; ++row) {
+        const bool listed = drawn.words[LIGHT_SCALES_AT + row] != 0 || row == LIGHT_ROW_OF_ALL;
+        if (!listed) continue;
+        for (const auto& [cluster, count] : drawn.slotsOf(row)) slotsOfCluster[cluster] += count;
+        slots += static_cast<int>(drawn.slotCount());
+    }
+    std::uint32_t end = 0;
+    int large = 0;
+    for (std::size_t place = 0; drawn.clusterAt(place) >= 0; ++place) {
+        const std::uint32_t pool = drawn.words[LIGHT_CLUSTER_POOLS_AT + place];
+        const std::uint32_t faces = 1u << (pool & 15u);
+        EXPECT_EQ(pool >> 4, end) << place;
+        end += faces;
+        if (faces <= 1u << LIGHT_LEAST_POOL_SHIFT || faces >= 1u << LIGHT_MOST_POOL_SHIFT) continue;
+        const double part =
+            LIGHT_POOL_ENTRIES * static_cast<double>(slotsOfCluster[drawn.clusterAt(place)]) / slots;
+        EXPECT_LE(faces, part) << place;
+        EXPECT_GT(4 * faces, part) << place;
+        large += faces >= 64 ? 1 : 0;
+    }
+    EXPECT_LE(end, LIGHT_POOL_ENTRIES);
+    EXPECT_GT(end, LIGHT_POOL_ENTRIES / 3);
+    EXPECT_GT(large, 50);
 }
 
 // Of all light nine tenths is that of the outside, which the room does not see: its walls draw a quarter of it or less.
