@@ -74,7 +74,7 @@ base::Steps LightSamples::drawInSteps(const gl::Device& device, const voxels::Su
     const std::pair<const char*, std::size_t> passes[] = {{"bricks", runCount_},
                                                           {"clusters", 1},
                                                           {"rows", LIGHT_ROWS},
-                                                          {"pool_size", 1},
+                                                          {"pool_layout", 1},
                                                           {"pools", std::size_t{LIGHT_POOL_ENTRIES}}};
     for (const auto& [name, invocations] : passes) {
         device.get(drawPass(name)).dispatchLinear(given, invocations);
@@ -86,7 +86,7 @@ base::Steps LightSamples::drawInSteps(const gl::Device& device, const voxels::Su
 void LightSamples::declare(gl::Inputs& inputs) const { inputs.texture("lightSamples", sampleTexels_); }
 
 std::vector<gl::ProgramDesc> LightSamples::programDescs() {
-    return {drawPass("bricks"), drawPass("clusters"), drawPass("rows"), drawPass("pool_size"),
+    return {drawPass("bricks"), drawPass("clusters"), drawPass("rows"), drawPass("pool_layout"),
             drawPass("pools")};
 }
 
