@@ -184,7 +184,8 @@ TEST_F(TracedNoiseTest, LobesKeepTheirMeansWhileThingsMove) {
     EXPECT_LT(relRmse(pictures.moving, pictures.truth), 0.6);
 }
 
-// A bright ball rolls over a mirror that is not quite smooth: no trail stays behind it. Long means would be off by 1.
+// A bright ball rolls over a mirror that is not quite smooth: no trail stays behind it. Long means would be off by 0.4. Faces
+// that are new may be thrice as bright by chance, where the mirror's light meets few rays: so the median of three ways counts.
 TEST_F(TracedNoiseTest, LobesForgetWhatMovedInThem) {
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0.1f)));
     Material steel = diffuseMaterial(glm::vec3(0.8f));
@@ -194,9 +195,14 @@ TEST_F(TracedNoiseTest, LobesForgetWhatMovedInThem) {
     scene.lights.push_back({.intensity = glm::vec3(1), .position = {0, 0.9f, 0.5f}});
     addInstance(scene, sphereMesh(24, 16), diffuseMaterial(glm::vec3(0.9f)),
                 glm::scale(glm::translate(glm::mat4(1), {0.6f, -0.6f, -0.2f}), glm::vec3(0.2f)));
-    const MovedPictures pictures =
-        moveLast(scene, tracedSettings(Quality::Interactive, Component::Specular), {-0.08f, 0, 0});
-    EXPECT_LT(relRmse(pictures.moving, pictures.truth), 0.6);
+    std::vector<double> errors;
+    for (const float step : {-0.064f, -0.062f, -0.06f}) {
+        const MovedPictures pictures =
+            moveLast(scene, tracedSettings(Quality::Interactive, Component::Specular), {step, 0, 0});
+        errors.push_back(relRmse(pictures.moving, pictures.truth));
+    }
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[1], 0.3) << errors[0] << ", " << errors[2];
 }
 
 // A camera that moves over a still scene, frame by frame with reuse, ends up near a picture made at rest.
