@@ -30,10 +30,13 @@ struct NormalSum {
     float spread;   // mean square of the distance of their places along the surface, voxels^2
 };
 
+// At the middle of a voxel places do not spread, and normals by their rounding.
+const float kLeastSpread = 0.1;
+
 // By how much normals turn per voxel, rad: their variance is that of the places times the square of it.
 float curvatureOf(NormalSum bent) {
     float together = dot(bent.sum, bent.sum) / max(bent.weights * bent.weights, 1e-12);
-    return bent.weights > 0.0 ? sqrt(max(1.0 - together, 0.0) / max(bent.spread, 0.1)) : 0.0;
+    return bent.weights > 0.0 ? sqrt(max(1.0 - together, 0.0) / max(bent.spread, kLeastSpread)) : 0.0;
 }
 
 // rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent` is found with CACHE_NORMALS 1.

@@ -341,12 +341,17 @@ vec3 turningRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit
 #endif
 
 #if LOBES
+// Rays of which one must not stand out: those of a pixel's mean, and of the pixels that the filter adds to it.
+float raysTogether(PathSettings path) {
+    return path.fireflyClamp * (path.footprint > 0.0 ? kPixelsTogether : 1.0);
+}
+
 // Updates the throughput and the width of the path's lobe.
 void bounce(inout PathState state, GlossyBounce next, PathSettings path) {
     state.throughput *= next.weight;
     state.alpha2 += next.alpha * next.alpha;
     float angle = state.footprint.angle;
-    float drawn = 1.0 / (kGatherPi * kPixelsTogether * path.fireflyClamp * max(next.pdf, 1e-6));
+    float drawn = 1.0 / (kGatherPi * raysTogether(path) * max(next.pdf, 1e-6));
     state.footprint.angle = angle > 0.0 ? sqrt(angle * angle + drawn) : 0.0;
     state.fromNarrowLobe = next.alpha < kNarrowLobe;
     ++state.bounce;
@@ -398,8 +403,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         vec3 contribution = state.throughput * (vertex.goesOn ? next.radiance : vertex.radiance);
         firstRadiance += first ? contribution : vec3(0.0);
         reflectedRadiance += first ? vec3(0.0) : contribution;
-        float mostTimes = path.fireflyClamp * (path.footprint > 0.0 ? kPixelsTogether : 1.0);
-        maxReflected = first ? mostTimes * brightness(vertex.radiance) : maxReflected;
+        maxReflected = first ? raysTogether(path) * brightness(vertex.radiance) : maxReflected;
 
         bounce(state, next, path);
         continues = continues && state.throughput.r + state.throughput.g + state.throughput.b > 0.0;

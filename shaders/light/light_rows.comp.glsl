@@ -1,7 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Draws the slots of each listed row from the clusters that send light, by what they bring to its cell were nothing in
-// between, and those of the row of all by flux (lib/light_cells.glsl). Counts the slots of each cluster. One invocation per row: lists of clusters are short.
+// between, and those of the row of all by flux (lib/light_cells.glsl). Counts the slots of each cluster. One
+// invocation per row: lists of clusters are short.
 layout(local_size_x = 64) in;
 #include "lib/light_cells.glsl"
 #include "lib/linear_index.glsl"
