@@ -61,8 +61,9 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
         most *= voxelEdgeAt(gridFromWorld(s.position));
 #endif
         float depth = min(s.depth, most);
-        return gridFromWorld(s.position + kStartDepth * depth * s.toEye +
-                             startOnLine(towards, depth) * direction);
+        // In a corner as far towards the eye as along the ray, which else would start behind the other wall.
+        float along = startOnLine(towards, depth);
+        return gridFromWorld(s.position + (kStartDepth * depth + along) * s.toEye + along * direction);
     }
 #endif
     return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
@@ -162,6 +163,23 @@ float aimedInverseFlux(Brdf b, bool glossy) {
 #endif
 }
 
+// What the pixel would show if it were diffuse and white; 0 where the cache knows nothing.
+float diffuseBrightness(Surface s, bool wanted) {
+#if AIMED_RAYS
+    return brightness(cachedIrradiance(gridFromWorld(s.position), s.geometricNormal, wanted).rgb);
+#else
+    return 0.0;
+#endif
+}
+
+// Of what a ray of a wide lobe brings, the part by which it moves the mean no more than all light that the surface gets
+// would (light/firefly_clamp.h). Where a lobe and the aimed rays both are thin, one ray in thousands brings a lamp's rim.
+float clampedShare(Brdf b, Surface s, LobeRay drawn, vec3 brought, float ofDiffuse) {
+    float gain = max(kPi * lobePdf(b, s.normal, s.toEye, drawn.ray.direction), 1.0);
+    float most = pixelRays.fireflyClamp * gain * ofDiffuse;
+    return ofDiffuse > 0.0 ? min(1.0, most / max(brightness(brought), 1e-12)) : 1.0;
+}
+
 // Ray `i` of a pixel: first those of the lobe, then aimed ones.
 LobeRay drawRay(Surface s, Brdf b, uint seed, int i) {
     int rays = int(pixelRays.rays);
@@ -201,6 +219,7 @@ void main() {
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
     float inverseFlux = aimedInverseFlux(b, glossy);
     bool aims = inverseFlux > 0.0;
+    float ofDiffuse = diffuseBrightness(s, aims);
     int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
@@ -219,8 +238,8 @@ void main() {
                          footprint, footprint * inversesqrt(kPixelsTogether));
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
-        vec3 weight = drawn.weight;
-        if (aims) weight *= techniqueShare(s, b, drawn, hit, inverseFlux);
+        vec3 weight = drawn.weight * (aims ? techniqueShare(s, b, drawn, hit, inverseFlux) : 1.0);
+        if (aims) weight *= clampedShare(b, s, drawn, weight * radiance, ofDiffuse);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

@@ -15,6 +15,7 @@ struct GlossySurface {
     float metallic;
     float roughness;
     bool reflects;   // a metal, which has a lobe
+    bool shines;     // a dielectric, whose lobe shows rectangular lights
     bool areaLight;  // its emission is that of a rectangular light
 };
 
@@ -29,7 +30,13 @@ GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
 #endif
     bool areaLight = (bits & FACE_AREA_LIGHT) != 0u;
     bool reflects = hit.face >= 0 && lobe.x > 0.0 && s.cached && !areaLight;
-    return GlossySurface(normal, lobe.x, lobe.y, reflects, areaLight);
+#if SMOOTH_HITS
+    bool shines =
+        hit.face >= 0 && lobe.x == 0.0 && lobe.y > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS && !areaLight;
+#else
+    const bool shines = false;  // where light is gathered, it is even
+#endif
+    return GlossySurface(normal, lobe.x, lobe.y, reflects, shines, areaLight);
 }
 
 // Specular reflection of all rectangular lights: each analytically as a whole (lib/rect_light.glsl), times
@@ -57,6 +64,7 @@ struct GlossyBounce {
     float alpha;          // width of the lobe
     float pdf;            // density per steradian
     float specularShare;  // share of the surface's albedo that is its lobe's
+    vec3 lampGloss;  // what a dielectric's lobe adds to light of rectangles that it reflects as if diffuse
 };
 
 struct GlossySample {
@@ -70,8 +78,11 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
     // Widen the lobe
     float alpha = max(surface.roughness, kMinRoughness) * max(surface.roughness, kMinRoughness);
     alpha = min(sqrt(alpha * alpha + g.widening), 1.0);
-    Brdf b =
-        makeBrdf(s.albedo, surface.metallic, sqrt(alpha), vec3(0.04), -dot(g.shadingNormal, ray.direction));
+    vec3 base = s.albedo;
+#if SMOOTH_HITS
+    if (surface.shines) base = baseOfEvenAlbedo(s.albedo, surface.roughness);
+#endif
+    Brdf b = makeBrdf(base, surface.metallic, sqrt(alpha), vec3(0.04), -dot(g.shadingNormal, ray.direction));
 
     // Sample it; reflections that a shading normal turns into the surface are mirrored out of it
     GlossyBounce next;
@@ -95,9 +106,13 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
     frontOffset = hit.triangle >= 0 ? vec3(0.0) : frontOffset;
 #endif
     vec3 position = worldFromGrid(point + faceEdge(face) * frontOffset);
-    if (alpha >= kNarrowLobe)
-        next.radiance += reflectedRects(b, position, g.shadingNormal, surface.normal, -ray.direction,
-                                        fract(7.0 * g.xi.x + g.xi.y));
+    vec3 rects = vec3(0.0);
+    if (alpha >= kNarrowLobe || surface.shines)
+        rects = reflectedRects(b, position, g.shadingNormal, surface.normal, -ray.direction,
+                               fract(7.0 * g.xi.x + g.xi.y));
+    next.radiance += rects;
+    vec3 even = max(unpackRgb9e5(texelFetch(cachedDirect, face).x) - emission, vec3(0.0));
+    next.lampGloss = rects - (1.0 - diffuseShare) * even;
 #if EXACT_DIRECT
 #if GLASS
     veilNear = kVeilNearVoxels * faceEdge(face) * grid.voxelSize;

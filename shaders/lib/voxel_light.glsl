@@ -289,8 +289,8 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, inout PathState 
     vertex.turns = vertex.goesOn = false;
     vec2 xi = vec2(randomNext(random), randomNext(random));
 #if EXECUTION_GPU
-    if (!vertex.metal) {  // the path ends here, by its radiance alone
-        vertex.next = GlossyBounce(vec3(0.0), ray, vec3(0.0), 0.0, 0.0, 0.0);
+    if (!vertex.metal && !surface.shines) {  // the path ends here, by its radiance alone
+        vertex.next = GlossyBounce(vec3(0.0), ray, vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
         vertex.lobeIrradiance = vec3(0.0);
         return vertex;
     }
@@ -298,11 +298,15 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, inout PathState 
     vertex.next = sampleGlossyBounce(
         ray, hit, s, surface, GlossySample(state.footprint.alpha2, vertex.radiance, shadingNormal, xi));
     vertex.lobeIrradiance = vertex.next.specularShare * s.albedo * s.irradiance;
+#if SMOOTH_HITS
+    if (surface.shines) vertex.radiance = max(vertex.radiance + vertex.next.lampGloss, vec3(0.0));
+#endif
 #if NEAR_TRIANGLES
     vertex.turns = !vertex.metal && path.targetDistance < 0.0 && turnsAt(ray, hit, state.turns);
     if (vertex.turns) {
         vec3 sent = withoutCached(vertex.radiance, s);
-        vertex.next = GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 1.0, 0.0);
+        vertex.next =
+            GlossyBounce(sent, turnedRay(ray, hit, random), s.albedo, kCosineAlpha, 1.0, 0.0, vec3(0.0));
     }
 #endif
     vertex.goesOn = vertex.metal || vertex.turns;

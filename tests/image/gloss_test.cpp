@@ -46,6 +46,39 @@ TEST_F(GlossTest, APolishedFloorThrowsTheSunOnTheWall) {
     EXPECT_GT(even, 2 * error);
 }
 
+// A black, polished wall under a softbox: all light that the metal floor mirrors is the wall's gloss.
+TEST_F(GlossTest, MirrorsShowSoftboxesInPolishedWalls) {
+    Scene scene;
+    Material stone = diffuseMaterial(glm::vec3(0));
+    stone.specular = 1;
+    stone.roughness = 0.3f;
+    addInstance(scene, quadMesh({-1, 0, 0}, {2, 0, 0}, {0, 1.5f, 0}), stone);
+    Material metal = diffuseMaterial(glm::vec3(0.9f));
+    metal.metallic = 1;
+    metal.roughness = 0.2f;
+    addInstance(scene, quadMesh({-1, 0, 1.5f}, {2, 0, 0}, {0, 0, -1.5f}), metal);
+    Light softbox;
+    softbox.type = LightType::Rect;
+    softbox.position = {0, 2.2f, 1.2f};
+    softbox.direction = glm::normalize(glm::vec3(0, -1, -0.8f));
+    softbox.halfU = {0.3f, 0, 0};
+    softbox.halfV = 0.3f * glm::normalize(glm::cross(softbox.direction, glm::vec3(1, 0, 0)));
+    softbox.intensity = glm::vec3(10);
+    scene.lights = {softbox};
+    Camera camera;
+    camera.eye = {0, 1, 2.2f};
+    camera.target = {0, 0, 0.7f};
+    camera.fovY = 0.5f;
+    scene.cameras = {camera};
+    reference::PathTracerSettings truthSettings;
+    truthSettings.samplesPerPixel = 1024;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(camera, kTracedPixels, kTracedPixels, truthSettings);
+    const Image image = draw(scene, tracedSettings(Quality::Interactive, Component::Indirect));
+    EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.1);
+    EXPECT_LT(indirectError(image, truth), 0.25);
+}
+
 // The roughest lobe is not that of a diffuse surface. Files whose materials say nothing have such metal.
 TEST_F(GlossTest, RoughMetalIsNotDiffuse) {
     Scene scene = court();

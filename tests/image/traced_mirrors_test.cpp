@@ -187,6 +187,34 @@ TEST_F(TracedMirrorsTest, GrazedFloorsMirrorThingsWhereTheyAre) {
     EXPECT_NEAR(lit, kPixels / 2, 1);
 }
 
+// The middle of each picture is on the edge between a metal floor and a wall, where rounding puts it. Rays from there show the
+// room, which shines: they do not start behind the wall.
+TEST_F(TracedMirrorsTest, PixelsInCornersMirrorTheRoom) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0), glm::vec3(1)));
+    Material metal = diffuseMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0.25f;
+    addInstance(scene, quadMesh({-1, -0.9f, 1}, {2, 0, 0}, {0, 0, -2}), metal);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Specular);
+    settings.light.emissiveQuads = false;
+    settings.traced.filterLevels = 0;
+    Renderer renderer;
+    renderer.setScene(scene);
+    constexpr int kViews = 24;
+    int floors = 0;
+    for (int i = 0; i < kViews; ++i) {
+        Camera camera;
+        camera.eye = {0.3f, 0.2f, 0.7f};
+        camera.target = {-1, -0.9f, -0.8f + 1.3f * static_cast<float>(i) / kViews};
+        camera.fovY = 0.5f;
+        renderer.render(camera, 5, 5, settings);
+        const float own = renderer.readImage().pixels[12].g;
+        floors += own > 0 ? 1 : 0;  // the others show the wall
+        EXPECT_TRUE(own == 0 || own > 0.7f) << i << ": " << own;
+    }
+    EXPECT_GT(floors, kViews / 8);
+}
+
 // Vertex normals may turn the mirrored direction into the surface. It shows nothing there, as in the path tracer.
 TEST_F(TracedMirrorsTest, NormalsThatMirrorIntoTheSurfaceShowNothing) {
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0), glm::vec3(1)));
