@@ -124,8 +124,9 @@ float cellEdge() {
 }
 
 // Seed of the random numbers that an entry or a row is drawn with.
-uint drawSeed(uint number, uint update, uint seed) {
-    return randomHash(number ^ randomHash(update ^ randomHash(seed ^ 0x51ed270bu)));
+// `draw`: of several for one update.
+uint drawSeed(uint number, uint update, uint draw, uint seed) {
+    return randomHash(number ^ randomHash(update ^ randomHash(seed ^ 0x51ed270bu) ^ draw * 0x9e3779b9u));
 }
 
 // Cells are elsewhere after each update, so that none of their borders shows: by this part of their edge, 10 bits an axis.

@@ -65,13 +65,16 @@ void main() {
     uint faces = 1u << (pool & 15u), entry = index - (pool >> 4);
     if (texelFetch(clusterList, 0).x == 0u || entry >= faces) return;
     int cluster = int(texelFetch(clusterList, int(1u + place)).x);
-    uint state = drawSeed(uint(cluster) << LIGHT_MOST_POOL_SHIFT | entry, cache.update, cache.seed);
+    uint state =
+        drawSeed(uint(cluster) << LIGHT_MOST_POOL_SHIFT | entry, cache.update, cache.draw, cache.seed);
     float part = texelFetch(clusterPlaces, int(2u * place)).w / float(faces);
     float wanted = (float(entry) + randomNext(state)) * part;
     float before = 0.0;
     int run = runAt(cluster, wanted, before);
     uint face = uint(faceAt(max(run, 0), uint(sideOfRow(cluster)), before, wanted));
     // Those with bounds that are moved the other way are others in each update.
-    bool moved = (entry + randomHash(uint(cluster) ^ cache.update)) % uint(kMovedBoundsPeriod) == 0u;
+    bool moved = (entry + randomHash(uint(cluster) ^ cache.update ^ cache.draw * 0x9e3779b9u)) %
+                     uint(kMovedBoundsPeriod) ==
+                 0u;
     lightTable[uint(LIGHT_POOLS_AT) + index] = moved ? face | LIGHT_MOVED : face;
 }

@@ -44,7 +44,7 @@ void main() {
     lightTable[LIGHT_PLACES_AT + row] = index;
 
     // Draw evenly spaced slots
-    uint state = drawSeed(uint(row), cache.update, cache.seed);
+    uint state = drawSeed(uint(row), cache.update, cache.draw, cache.seed);
     uint slots = lightTable[LIGHT_SLOT_COUNT_AT];
     float step = flux / float(slots);
     float wanted = randomNext(state) * step;

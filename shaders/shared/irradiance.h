@@ -136,7 +136,7 @@ struct CacheConstants {
     // 1: after a change windows are short near `places`, elsewhere no longer than IRRADIANCE_FAR_WEIGHT lets them
     uint restartsNear;
     uint placeCount;
-    uint pad0;
+    uint draw;  // of light samples from the same light; 0: that of the update
     // ---- 48 B
     vec4 places[CHANGED_PLACES];     // of changes, world space; w: radius, m
     vec4 placeParts[CHANGED_FOURS];  // of their cross-sections, how much changed, [0,1]

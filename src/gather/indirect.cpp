@@ -19,6 +19,8 @@ constexpr int kFramesPerPass = 2;
 // What the filter takes a draw of lamps for: rays into the hemisphere of about as much noise (builtin:lamps, 100 and 1,000).
 constexpr int kLampRays = 16;
 constexpr int kOcclusionPasses = 16;
+// Passes of a finished picture that aim at one draw of light samples: what a draw errs by, more passes do not average.
+constexpr int kPassesPerDraw = 1;
 constexpr int kOcclusionRays = 2;
 
 bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
@@ -91,57 +93,91 @@ void Indirect::followInstances(const scene::GpuScene& scene) {
     if (moved_) motion_ = gl::Buffer(scene::oldFromWorld(scene, changes), "instance motion");
 }
 
-// Finished at once, or one more pass on top of what is known.
-base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
-                                Gathered& gathered) {
-    PixelRays& picture = gathered.rays;
+// Whether the view is that of the means so far.
+bool Indirect::isStill(const RayInputs& inputs, const Gathered& gathered) const {
+    const bool known =
+        gathered.history.view && gathered.rays.has(inputs.surfaces.width(), inputs.surfaces.height());
+    // A host's vectors may say that anything moves.
+    return known && sameView(*gathered.history.view, inputs.surfaces.view()) && !moved_ &&
+           !inputs.surfaces.haveMotion();
+}
+
+// One more on top of what is known.
+base::Steps Indirect::addPass(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                              Gathered& gathered) {
     History& history = gathered.history;
     RayPass next = pass;
     next.motion = moved_ ? &motion_ : nullptr;
-    const gpu::FrameConstants& view = inputs.surfaces.view();
-    const bool known = history.view && picture.has(inputs.surfaces.width(), inputs.surfaces.height());
-    // A host's vectors may say that anything moves.
-    const bool still = known && sameView(*history.view, view) && !moved_ && !inputs.surfaces.haveMotion();
-    if (pass.settings.budgeted) {
-        next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
-        next.number = history.number++;
-        const bool steady = &gathered == &lamps_ || inputs.lit.steady();
-        const int grown = steady ? history.passes / kFramesPerPass : 0;
-        next.shortest = std::max(kUnsettledMean, grown);
-        next.shortestOfLobes = std::max(1, grown);
-        co_await picture.gatherInSteps(device, inputs, next);
-        ++history.passes;
-        history.view = view;
-    } else {
-        if (!still) history.passes = 0;
-        for (; history.passes < pass.longest; ++history.passes) {
-            next.reuse = history.passes == 0 ? Reuse::None : Reuse::SameView;
-            next.number = static_cast<std::uint32_t>(history.passes);
-            co_await picture.gatherInSteps(device, inputs, next);
-            history.view = view;
-        }
-        history.number = static_cast<std::uint32_t>(history.passes);
+    const bool known = history.view && gathered.rays.has(inputs.surfaces.width(), inputs.surfaces.height());
+    next.reuse = !known ? Reuse::None : (isStill(inputs, gathered) ? Reuse::SameView : Reuse::Reproject);
+    next.number = history.number++;
+    const bool steady = &gathered == &lamps_ || inputs.lit.steady();
+    const int grown = steady ? history.passes / kFramesPerPass : 0;
+    next.shortest = std::max(kUnsettledMean, grown);
+    next.shortestOfLobes = std::max(1, grown);
+    co_await gathered.rays.gatherInSteps(device, inputs, next);
+    ++history.passes;
+    history.view = inputs.surfaces.view();
+}
+
+// Of a picture that is finished at once, up to so many.
+base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                                int until, Gathered& gathered) {
+    History& history = gathered.history;
+    RayPass next = pass;
+    next.motion = moved_ ? &motion_ : nullptr;
+    for (; history.passes < until; ++history.passes) {
+        next.reuse = history.passes == 0 ? Reuse::None : Reuse::SameView;
+        next.number = static_cast<std::uint32_t>(history.passes);
+        co_await gathered.rays.gatherInSteps(device, inputs, next);
+        history.view = inputs.surfaces.view();
+    }
+    history.number = static_cast<std::uint32_t>(history.passes);
+}
+
+std::vector<Indirect::PictureRays> Indirect::wantedPictures(const RayInputs& inputs, const Wanted& wanted) {
+    const TracedSettings& settings = wanted.settings;
+    std::vector<PictureRays> pictures;
+    if (wantsLamps(wanted, inputs)) pictures.push_back({&lamps_, kLampRays});
+    if (wantsIrradiance(wanted)) pictures.push_back({&diffuse_, settings.pixelRays});
+    if (wantsLobe(wanted, inputs)) pictures.push_back({&specular_, settings.specularRays});
+    if (wantsCoat(wanted, inputs)) pictures.push_back({&coats_, settings.specularRays});
+    return pictures;
+}
+
+base::Steps Indirect::gatherAll(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                                const std::vector<PictureRays>& pictures) {
+    const int passes = wanted.settings.passes;
+    const auto passOf = [&](const PictureRays& one) {
+        return RayPass{wanted.settings, one.rays, passes, 0, Reuse::None, nullptr, wanted.lookupCounters};
+    };
+    if (wanted.settings.budgeted) {
+        for (const PictureRays& one : pictures) co_await addPass(device, inputs, passOf(one), *one.gathered);
+        co_return;
+    }
+    int made = passes;
+    for (const PictureRays& one : pictures) {
+        if (!isStill(inputs, *one.gathered)) one.gathered->history.passes = 0;
+        made = std::min(made, one.gathered->history.passes);
+    }
+    while (made < passes) {
+        const int draw = made / kPassesPerDraw;
+        if (wanted.redraw) co_await wanted.redraw(static_cast<std::uint32_t>(draw));
+        made = std::min((draw + 1) * kPassesPerDraw, passes);
+        for (const PictureRays& one : pictures)
+            co_await addPasses(device, inputs, passOf(one), made, *one.gathered);
     }
 }
 
-base::Steps Indirect::gatherOne(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
-                                int rays, Gathered& gathered) {
-    const RayPass pass{wanted.settings, rays,    wanted.settings.passes, 0,
-                       Reuse::None,     nullptr, wanted.lookupCounters};
-    co_await addPasses(device, inputs, pass, gathered);
-    co_await gathered.rays.filterInSteps(device, inputs, wanted.settings.filterLevels);
-    gathered.picture = &gathered.rays.filtered();
-}
-
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
-    const TracedSettings& settings = wanted.settings;
-    follow(inputs, settings);
+    follow(inputs, wanted.settings);
     for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->picture = nullptr;
-    if (wantsLamps(wanted, inputs)) co_await gatherOne(device, inputs, wanted, kLampRays, lamps_);
-    if (wantsIrradiance(wanted)) co_await gatherOne(device, inputs, wanted, settings.pixelRays, diffuse_);
-    if (wantsLobe(wanted, inputs))
-        co_await gatherOne(device, inputs, wanted, settings.specularRays, specular_);
-    if (wantsCoat(wanted, inputs)) co_await gatherOne(device, inputs, wanted, settings.specularRays, coats_);
+    const std::vector<PictureRays> pictures = wantedPictures(inputs, wanted);
+    co_await gatherAll(device, inputs, wanted, pictures);
+    for (const PictureRays& one : pictures) {
+        co_await one.gathered->rays.filterInSteps(device, inputs, wanted.settings.filterLevels);
+        one.gathered->picture = &one.gathered->rays.filtered();
+    }
     for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->found = one->picture;
     gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
@@ -176,27 +212,42 @@ base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs&
                                       const TracedSettings& settings) {
     follow(inputs, settings);
     const RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
-    co_await addPasses(device, inputs, pass, occlusion_);
+    if (!settings.budgeted && !isStill(inputs, occlusion_)) occlusion_.history.passes = 0;
+    if (settings.budgeted)
+        co_await addPass(device, inputs, pass, occlusion_);
+    else
+        co_await addPasses(device, inputs, pass, kOcclusionPasses, occlusion_);
     co_await occlusion_.rays.filterInSteps(device, inputs, 1);
     occlusion_.picture = &occlusion_.rays.filtered();
     unfinished_ = false;
+}
+
+// The passes that a finished picture has.
+void Indirect::recordPasses(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                            const PictureRays& picture, StepRecorder& recorder) {
+    RayPass pass{wanted.settings, picture.rays, wanted.settings.passes};
+    for (int i = 0; i < pass.longest; ++i) {
+        const bool redraws = wanted.redraw && !wanted.settings.budgeted && i % kPassesPerDraw == 0;
+        if (redraws) wanted.redraw(static_cast<std::uint32_t>(i / kPassesPerDraw)).finish();
+        pass.number = static_cast<std::uint32_t>(i);
+        picture.gathered->rays.record(device, inputs, pass, recorder);
+    }
 }
 
 void Indirect::record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
                       StepRecorder& recorder) {
     const TracedSettings& settings = wanted.settings;
     if (wantsIrradiance(wanted))
-        diffuse_.rays.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
-                             recorder);
+        recordPasses(device, inputs, wanted, {&diffuse_, settings.pixelRays}, recorder);
     if (wantsLobe(wanted, inputs))
-        specular_.rays.record(device, inputs, {settings, settings.specularRays, settings.passes},
-                              settings.passes, recorder);
+        recordPasses(device, inputs, wanted, {&specular_, settings.specularRays}, recorder);
 }
 
 void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs,
                                const TracedSettings& settings, StepRecorder& recorder) {
-    occlusion_.rays.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses,
-                           recorder);
+    RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
+    for (; pass.number < kOcclusionPasses; ++pass.number)
+        occlusion_.rays.record(device, inputs, pass, recorder);
 }
 
 }  // namespace conelight::gather

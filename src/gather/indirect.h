@@ -4,6 +4,8 @@
 // kept, and taken up again where the same surface is seen.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,11 +20,15 @@ namespace conelight::gather {
 
 class Indirect {
   public:
+    // Draws the light samples that the next passes of a finished picture aim at, by the number of the draw.
+    using Redraw = std::function<base::Steps(std::uint32_t)>;
+
     // Which parts a picture needs of it; a finished picture, or one more pass on top of what is known.
     struct Wanted {
         const TracedSettings& settings;
         PictureParts parts;
         const gl::Buffer* lookupCounters = nullptr;
+        Redraw redraw = {};
     };
 
     // Gathers what the settings ask rays for. GL state changed: as PixelRays.
@@ -71,11 +77,21 @@ class Indirect {
     void forget();
     void follow(const RayInputs& inputs, const TracedSettings& settings);
     void followInstances(const scene::GpuScene& scene);
-    base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+    // A picture that is asked for, by so many rays of a pixel in a pass.
+    struct PictureRays {
+        Gathered* gathered;
+        int rays;
+    };
+    std::vector<PictureRays> wantedPictures(const RayInputs& inputs, const Wanted& wanted);
+    bool isStill(const RayInputs& inputs, const Gathered& gathered) const;
+    base::Steps addPass(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                        Gathered& gathered);
+    base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int until,
                           Gathered& gathered);
-    // `rays`: of a pixel in a pass.
-    base::Steps gatherOne(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted, int rays,
-                          Gathered& gathered);
+    void recordPasses(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                      const PictureRays& picture, StepRecorder& recorder);
+    base::Steps gatherAll(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                          const std::vector<PictureRays>& pictures);
 
     Gathered diffuse_{PixelRays(RayPicture::Diffuse), {}, {}};
     Gathered specular_{PixelRays(RayPicture::Specular), {}, {}};

@@ -207,7 +207,7 @@ gl::Inputs PixelRays::passInputs(const RayInputs& inputs, const RayPass& pass) c
     return given;
 }
 
-void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int passes,
+void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
                        StepRecorder& recorder) {
     resize(inputs.surfaces.width(), inputs.surfaces.height());
     RayPass one = pass;
@@ -219,12 +219,8 @@ void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const 
     gl::Inputs given = passInputs(inputs, one);
     // Declared by the shader; the one pixel is not looked up there.
     if (kind_ == RayPicture::Specular) given.storage("LobeList", lobeList());
-    for (int i = 0; i < passes; ++i) {
-        one.number = static_cast<std::uint32_t>(i);
-        one.longest = passes;
-        constants_.update(packed(inputs, one));
-        recorder.record(device, key.desc(), given, 1.0f / static_cast<float>(passes));
-    }
+    constants_.update(packed(inputs, one));
+    recorder.record(device, key.desc(), given, 1.0f / static_cast<float>(one.longest));
 }
 
 // The list of pixels that need rays into their lobe, for pictures of this size.

@@ -91,8 +91,8 @@ class PixelRays {
     // Where a picture of lobes has anything.
     const PixelRectangle& lobes() const { return current_.written; }
 
-    // Records the recorder's pixel of passes 0 to `passes` - 1; pictures stay as they are.
-    void record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int passes,
+    // Records the recorder's pixel in one of `pass.longest` passes; pictures stay as they are.
+    void record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
                 StepRecorder& recorder);
 
     static std::vector<gl::ProgramDesc> programDescs();

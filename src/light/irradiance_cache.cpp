@@ -201,9 +201,20 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
 base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inputs,
                                     const CacheSettings& settings, bool atPixels) {
     prepared_ = false;
+    committedWith_ = settings;
     co_await putLight(device, inputs, settings, atPixels);
     co_await samples_.drawInSteps(device, inputs.voxels.surface(), constants_);
     prepared_ = true;
+}
+
+base::Steps IrradianceCache::redrawInSteps(const gl::Device& device, const Inputs& inputs,
+                                           std::uint32_t draw) {
+    if (faceCount_ == 0 || !prepared_) co_return;
+    if (!samples_.canDraw()) co_await putLight(device, inputs, committedWith_, true);
+    gpu::CacheConstants constants = packed(committedWith_);
+    constants.draw = draw;
+    constants_.update(constants);
+    co_await samples_.drawInSteps(device, inputs.voxels.surface(), constants_);
 }
 
 // States -> what rays and pixels see, and the flux of faces.
@@ -225,7 +236,7 @@ base::Steps IrradianceCache::putLight(const gl::Device& device, const Inputs& in
                           "shared light of faces");
     gl::Inputs commits = given;
     commits.storage("FaceLightTable", twice ? sharedLight_ : faceLight_);
-    samples_.reserve(inputs.voxels.grid(), faceCount_);  // what endSharing() has freed
+    samples_.reserve(inputs.voxels.grid(), faceCount_);  // what endDraws() has freed
     samples_.declareWritten(commits);
     device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
@@ -412,7 +423,6 @@ void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
     balance_.release();
-    samples_.release();
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }

@@ -69,8 +69,13 @@ class IrradianceCache {
     base::Steps updateInSteps(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                               int passes);
 
-    // Frees what updates of a cache that is to be seen at once need beside its light; they take it again.
+    // Draws other light samples of the same light: pixels whose rays all share one draw show its error.
+    base::Steps redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw);
+
+    // Free what updates of a cache that is to be seen at once need beside its light, and what draws need; both take it
+    // again.
     void endSharing();
+    void endDraws() { samples_.release(); }
 
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.
@@ -133,6 +138,7 @@ class IrradianceCache {
         ranges_, rangeBlock_;
     gl::Texture faceLightTexels_, sharedLightTexels_, stateTexels_, oldStateTexels_;
     LightSamples samples_;
+    CacheSettings committedWith_;
     FaceOrder order_;
     LightBalance balance_;
     base::Revision voxelsFrom_;  // whose faces these are

@@ -22,6 +22,7 @@ class LightSamples {
     void reserve(const voxels::VoxelGrid& grid, std::uint32_t faces);
     // Frees what drawing needs, but not what was drawn.
     void release();
+    bool canDraw() const { return static_cast<bool>(fluxes_); }
     // What the commit of the cache writes: FluxTable, sidedFlux() of each face; CellMarkTable, a bit per row in which rays
     // start. Forgets the marks so far.
     void declareWritten(gl::Inputs& inputs);

@@ -146,6 +146,12 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
         if (run.passes > 0) revision_ = base::Revision::next();
     }
     if (!budget.oneUpdate || missing == 0) cache_.endSharing();
+    if (budget.oneUpdate && missing == 0) cache_.endDraws();
+}
+
+base::Steps LitVoxels::redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw) {
+    co_await cache_.redrawInSteps(device, {inputs.scene, inputs.lights, inputs.voxels, directTexels_, faces_},
+                                  draw);
 }
 
 // What far faces have kept of the light before goes by twice as many.

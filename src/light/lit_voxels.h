@@ -57,6 +57,10 @@ class LitVoxels {
     base::Steps relightInSteps(const gl::Device& device, const Inputs& inputs,
                                const RelightSettings& settings, const Budget& budget);
 
+    // Draws other light samples of the same light, for pixels that average several draws; endDraws() frees what that takes.
+    base::Steps redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw);
+    void endDraws() { cache_.endDraws(); }
+
     // Takes light over to voxels that a picture has left behind, before they become others: it goes from voxels to the
     // next ones only.
     base::Steps followVoxels(const gl::Device& device, const voxels::Voxels& voxels);

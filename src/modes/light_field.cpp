@@ -207,6 +207,7 @@ int LightField::Impl::update(const LightBudget& budget) {
                                .start = start});
     else
         lit.relight(onLevels, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
+    if (!settings.traced.budgeted) lit.endDraws();  // gather() takes it again
     stats.waits = gl::waitCount() - waitedBefore;
     return lit.updates();
 }
@@ -245,7 +246,11 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
     const gl::Device onLevels = nested();
     view.surfaces.take(device, *scene, host, reduction);
     const gather::RayInputs traced{*scene, lights, voxels, lit, view.surfaces};
-    view.indirect.gather(onLevels, traced, {settings.traced, {.diffuse = true, .specular = true}});
+    const light::LitVoxels::Inputs sources{*scene, lights, voxels};
+    const auto redraw = [&](std::uint32_t draw) { return lit.redrawInSteps(onLevels, sources, draw); };
+    const gather::PictureParts parts{.diffuse = true, .specular = true};
+    view.indirect.gather(onLevels, traced, {settings.traced, parts, nullptr, redraw});
+    if (!settings.traced.budgeted) lit.endDraws();
     if (reduction > 1) {
         view.all.take(device, *scene, host, 1);
         const gather::RayInputs all{*scene, lights, voxels, lit, view.all};

@@ -55,8 +55,10 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
     if (usesLight && !frame.besideCenters) co_await relight(frame);
 
     // What arrives at pixels, and the picture.
+    const light::LitVoxels::Inputs sources{frame.scene, frame.lights, voxels_};
+    const auto redraw = [&](std::uint32_t draw) { return lit_.redrawInSteps(frame.device, sources, draw); };
     if (frame.recorder != nullptr) {
-        record(frame, inputs);
+        record(frame, inputs, redraw);
     } else if (component == Component::Occlusion) {
         co_await indirect_.gatherOcclusion(frame.device, inputs, settings);
         co_await shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
@@ -66,7 +68,7 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
             {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong},
             {voxels_, lit_.faces(), lit_.revision()});
     } else {
-        const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters};
+        const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters, redraw};
         if (frame.besideCenters)
             co_await indirect_.carry(frame.device, inputs, settings);
         else
@@ -84,6 +86,7 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
         const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
         co_await layers_.drawInSteps(frame.device, pixels, layers, frame.output);
     }
+    if (!settings.budgeted) lit_.endDraws();
 }
 // [/recipe]
 
@@ -141,14 +144,15 @@ base::Steps TracedMode::drawGlass(const Frame& frame) {
 }
 
 // What the picture shows of one pixel, or would show in component full.
-void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
+void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs,
+                        const gather::Indirect::Redraw& redraw) {
     const TracedSettings& settings = frame.settings.traced;
     if (frame.settings.component == Component::Occlusion)
         return indirect_.recordOcclusion(frame.device, inputs, settings, *frame.recorder);
     if (settings.bounces == 0) return;
     if (settings.pixelRays == 0) shade_.recordCache(frame.device, inputs, *frame.recorder);
-    indirect_.record(frame.device, inputs, {settings, {.direct = true, .diffuse = true, .specular = true}},
-                     *frame.recorder);
+    const gather::PictureParts all{.direct = true, .diffuse = true, .specular = true};
+    indirect_.record(frame.device, inputs, {settings, all, nullptr, redraw}, *frame.recorder);
 }
 
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {

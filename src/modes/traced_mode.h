@@ -36,7 +36,7 @@ class TracedMode : public ModeRenderer {
     gl::Device deviceFor(const Frame& given);
     base::Steps voxelize(const Frame& frame);
     base::Steps relight(const Frame& frame);
-    void record(const Frame& frame, const gather::RayInputs& inputs);
+    void record(const Frame& frame, const gather::RayInputs& inputs, const gather::Indirect::Redraw& redraw);
 
     voxels::VoxelGrid grid_;  // of the last picture, with several levels
     voxels::Voxels voxels_;

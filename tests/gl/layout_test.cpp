@@ -188,7 +188,7 @@ std::vector<Struct> otherStructs() {
         ROW(FaceCache, irradiance, counts),
         ROW(CacheOrder, number, searches, binsPerChunk, chunkCount),
         ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
-            reflections, fireflyClamp, restartsNear, placeCount, pad0, places, placeParts),
+            reflections, fireflyClamp, restartsNear, placeCount, draw, places, placeParts),
         ROW(CacheBalance, cached, pad0, fresh, pad1, returned, pad2, correction, pad3),
         ROW(CacheBalancing, groups, weight, cachedBefore, step, rounds, pad0, pad1, pad2),
         ROW(CacheRanges, part, parts, pad0, pad1),

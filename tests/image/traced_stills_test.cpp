@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Finished pictures of mode `traced`: what more rays must average away.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/generated.h"
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+using TracedStillsTest = TracedModeTest;
+
+// A draw of light samples errs by some of what it stands for. Passes aim at draws of their own, so means of squares of a
+// furnace, in which all is alike, come closer to each other the more there are.
+TEST_F(TracedStillsTest, PassesAimAtDrawsOfTheirOwn) {
+    const Scene scene = io::generateScene("furnace?albedo=0.5&emission=1");
+    Settings settings;
+    settings.mode = Mode::Traced;
+    settings.component = Component::Indirect;
+    settings.voxels.size = 64;
+    applyQuality(settings.traced, Quality::Converged);
+    settings.traced.filterLevels = 0;
+    constexpr int kPixels = 96, kSquare = 16, kSquares = kPixels / kSquare;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.front(), kPixels, kPixels, settings);
+    const Image image = renderer.readImage();
+    std::array<double, kSquares * kSquares> means{};
+    double mean = 0;
+    for (int y = 0; y < kPixels; ++y)
+        for (int x = 0; x < kPixels; ++x) {
+            const auto square = static_cast<std::size_t>(y / kSquare * kSquares + x / kSquare);
+            const double own = image.pixels[static_cast<std::size_t>(y * kPixels + x)].g;
+            means[square] += own / (kSquare * kSquare);
+            mean += own / (kPixels * kPixels);
+        }
+    double squares = 0;
+    for (const double one : means) squares += std::pow(one - mean, 2) / static_cast<double>(means.size());
+    EXPECT_GT(mean, 0);
+    EXPECT_LT(std::sqrt(squares) / mean, 0.0015);  // 0.0025 where all aim at one
+}
+
+// A bulb of few voxels above tools of steel. Now and then a ray from the thin rim of a lobe meets the rim of the bulb, which
+// few rays are aimed at: that one ray may not show.
+TEST_F(TracedStillsTest, RimsOfBulbsThrowNoDotsOnTools) {
+    const Scene scene = io::generateScene("workshop");
+    Settings settings;
+    settings.mode = Mode::Traced;
+    settings.component = Component::Indirect;
+    settings.voxels.size = 128;
+    applyQuality(settings.traced, Quality::Converged);
+    settings.traced.cacheUpdates = 10;
+    settings.traced.cacheRays = 2;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.front(), 80, 60, settings);
+    const Image image = renderer.readImage();
+    const float least = 4.0f * static_cast<float>(meanOf(image));
+    const int dots = dotsIn(image, [&](float own, const std::array<float, 9>& around) {
+        return own > 2.5f * around[7] && own > least;
+    });
+    // The highlight of one tool is no larger.
+    EXPECT_LE(dots, 1);
+}
+
+}  // namespace
+}  // namespace conelight::test
