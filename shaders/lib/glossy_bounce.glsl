@@ -31,8 +31,7 @@ GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     bool areaLight = (bits & FACE_AREA_LIGHT) != 0u;
     bool reflects = hit.face >= 0 && lobe.x > 0.0 && s.cached && !areaLight;
 #if SMOOTH_HITS
-    bool shines =
-        hit.face >= 0 && lobe.x == 0.0 && lobe.y > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS && !areaLight;
+    bool shines = hit.face >= 0 && isGlossyDielectric(lobe) && !areaLight;
 #else
     const bool shines = false;  // where light is gathered, it is even
 #endif

@@ -9,6 +9,9 @@ vec3 litIrradiance(uvec4 lit) { return vec3(unpackHalf2x16(lit.z), unpackHalf2x1
 // Metalness and roughness, by the last word of a lit face.
 vec2 litLobe(uint bits) { return unpackLobe(bits >> FACE_LOBE_SHIFT); }
 
+// Whether that is a dielectric whose lobe is told from even light.
+bool isGlossyDielectric(vec2 lobe) { return lobe.x == 0.0 && lobe.y > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS; }
+
 // Outgoing radiance of a diffuse face: emission, reflected direct light, reflected irradiance.
 vec3 litRadiance(uvec4 lit) { return unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * litIrradiance(lit); }
 

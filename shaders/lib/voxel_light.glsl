@@ -77,7 +77,7 @@ const float kGatherPi = 3.14159265358979;
 // dielectric has a lobe here, of F0 = 0.04, its alpha^2 wider by `widening`; a metal is as if diffuse.
 vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 #if GLOSS
-    bool glossy = lobe.x == 0.0 && lobe.y > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS;
+    bool glossy = isGlossyDielectric(lobe);
     float alpha = max(lobe.y, kMinRoughness) * max(lobe.y, kMinRoughness);
     float roughness = sqrt(min(sqrt(alpha * alpha + 0.04 * widening), 1.0));
     vec3 base = baseOfEvenAlbedo(albedo, lobe.y);

@@ -19,8 +19,6 @@ constexpr int kFramesPerPass = 2;
 // What the filter takes a draw of lamps for: rays into the hemisphere of about as much noise (builtin:lamps, 100 and 1,000).
 constexpr int kLampRays = 16;
 constexpr int kOcclusionPasses = 16;
-// Passes of a finished picture that aim at one draw of light samples: what a draw errs by, more passes do not average.
-constexpr int kPassesPerDraw = 1;
 constexpr int kOcclusionRays = 2;
 
 bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
@@ -93,12 +91,15 @@ void Indirect::followInstances(const scene::GpuScene& scene) {
     if (moved_) motion_ = gl::Buffer(scene::oldFromWorld(scene, changes), "instance motion");
 }
 
-// Whether the view is that of the means so far.
+// Whether there are means so far, of a picture of this size.
+bool Indirect::isKnown(const RayInputs& inputs, const Gathered& gathered) {
+    return gathered.history.view && gathered.rays.has(inputs.surfaces.width(), inputs.surfaces.height());
+}
+
+// Whether they are of this view.
 bool Indirect::isStill(const RayInputs& inputs, const Gathered& gathered) const {
-    const bool known =
-        gathered.history.view && gathered.rays.has(inputs.surfaces.width(), inputs.surfaces.height());
     // A host's vectors may say that anything moves.
-    return known && sameView(*gathered.history.view, inputs.surfaces.view()) && !moved_ &&
+    return isKnown(inputs, gathered) && sameView(*gathered.history.view, inputs.surfaces.view()) && !moved_ &&
            !inputs.surfaces.haveMotion();
 }
 
@@ -108,8 +109,9 @@ base::Steps Indirect::addPass(const gl::Device& device, const RayInputs& inputs,
     History& history = gathered.history;
     RayPass next = pass;
     next.motion = moved_ ? &motion_ : nullptr;
-    const bool known = history.view && gathered.rays.has(inputs.surfaces.width(), inputs.surfaces.height());
-    next.reuse = !known ? Reuse::None : (isStill(inputs, gathered) ? Reuse::SameView : Reuse::Reproject);
+    next.reuse = !isKnown(inputs, gathered)  ? Reuse::None
+                 : isStill(inputs, gathered) ? Reuse::SameView
+                                             : Reuse::Reproject;
     next.number = history.number++;
     const bool steady = &gathered == &lamps_ || inputs.lit.steady();
     const int grown = steady ? history.passes / kFramesPerPass : 0;
@@ -120,7 +122,13 @@ base::Steps Indirect::addPass(const gl::Device& device, const RayInputs& inputs,
     history.view = inputs.surfaces.view();
 }
 
-// Of a picture that is finished at once, up to so many.
+// Passes of a picture that is finished at once which are those of this view.
+int Indirect::keptPasses(const RayInputs& inputs, Gathered& gathered) {
+    if (!isStill(inputs, gathered)) gathered.history.passes = 0;
+    return gathered.history.passes;
+}
+
+// Of such a picture, up to so many.
 base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
                                 int until, Gathered& gathered) {
     History& history = gathered.history;
@@ -156,16 +164,12 @@ base::Steps Indirect::gatherAll(const gl::Device& device, const RayInputs& input
         co_return;
     }
     int made = passes;
-    for (const PictureRays& one : pictures) {
-        if (!isStill(inputs, *one.gathered)) one.gathered->history.passes = 0;
-        made = std::min(made, one.gathered->history.passes);
-    }
-    while (made < passes) {
-        const int draw = made / kPassesPerDraw;
-        if (wanted.redraw) co_await wanted.redraw(static_cast<std::uint32_t>(draw));
-        made = std::min((draw + 1) * kPassesPerDraw, passes);
+    for (const PictureRays& one : pictures) made = std::min(made, keptPasses(inputs, *one.gathered));
+    // Each pass aims at light samples of its own: what one draw of them errs by, more passes do not average.
+    for (; made < passes; ++made) {
+        if (wanted.redraw) co_await wanted.redraw(static_cast<std::uint32_t>(made));
         for (const PictureRays& one : pictures)
-            co_await addPasses(device, inputs, passOf(one), made, *one.gathered);
+            co_await addPasses(device, inputs, passOf(one), made + 1, *one.gathered);
     }
 }
 
@@ -212,11 +216,12 @@ base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs&
                                       const TracedSettings& settings) {
     follow(inputs, settings);
     const RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
-    if (!settings.budgeted && !isStill(inputs, occlusion_)) occlusion_.history.passes = 0;
-    if (settings.budgeted)
+    if (settings.budgeted) {
         co_await addPass(device, inputs, pass, occlusion_);
-    else
+    } else {
+        keptPasses(inputs, occlusion_);
         co_await addPasses(device, inputs, pass, kOcclusionPasses, occlusion_);
+    }
     co_await occlusion_.rays.filterInSteps(device, inputs, 1);
     occlusion_.picture = &occlusion_.rays.filtered();
     unfinished_ = false;
@@ -226,10 +231,8 @@ base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs&
 void Indirect::recordPasses(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
                             const PictureRays& picture, StepRecorder& recorder) {
     RayPass pass{wanted.settings, picture.rays, wanted.settings.passes};
-    for (int i = 0; i < pass.longest; ++i) {
-        const bool redraws = wanted.redraw && !wanted.settings.budgeted && i % kPassesPerDraw == 0;
-        if (redraws) wanted.redraw(static_cast<std::uint32_t>(i / kPassesPerDraw)).finish();
-        pass.number = static_cast<std::uint32_t>(i);
+    for (; pass.number < static_cast<std::uint32_t>(pass.longest); ++pass.number) {
+        if (wanted.redraw && !wanted.settings.budgeted) wanted.redraw(pass.number).finish();
         picture.gathered->rays.record(device, inputs, pass, recorder);
     }
 }

@@ -83,7 +83,9 @@ class Indirect {
         int rays;
     };
     std::vector<PictureRays> wantedPictures(const RayInputs& inputs, const Wanted& wanted);
+    static bool isKnown(const RayInputs& inputs, const Gathered& gathered);
     bool isStill(const RayInputs& inputs, const Gathered& gathered) const;
+    int keptPasses(const RayInputs& inputs, Gathered& gathered);
     base::Steps addPass(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
                         Gathered& gathered);
     base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int until,

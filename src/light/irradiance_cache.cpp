@@ -236,7 +236,7 @@ base::Steps IrradianceCache::putLight(const gl::Device& device, const Inputs& in
                           "shared light of faces");
     gl::Inputs commits = given;
     commits.storage("FaceLightTable", twice ? sharedLight_ : faceLight_);
-    samples_.reserve(inputs.voxels.grid(), faceCount_);  // what endDraws() has freed
+    samples_.reserve(inputs.voxels.grid(), faceCount_);  // what endSharing() has freed
     samples_.declareWritten(commits);
     device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
@@ -423,6 +423,7 @@ void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
     balance_.release();
+    samples_.release();
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }

@@ -72,10 +72,8 @@ class IrradianceCache {
     // Draws other light samples of the same light: pixels whose rays all share one draw show its error.
     base::Steps redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw);
 
-    // Free what updates of a cache that is to be seen at once need beside its light, and what draws need; both take it
-    // again.
+    // Frees what updates of a cache that is to be seen at once, and draws, need beside its light; they take it again.
     void endSharing();
-    void endDraws() { samples_.release(); }
 
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.

@@ -146,7 +146,6 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
         if (run.passes > 0) revision_ = base::Revision::next();
     }
     if (!budget.oneUpdate || missing == 0) cache_.endSharing();
-    if (budget.oneUpdate && missing == 0) cache_.endDraws();
 }
 
 base::Steps LitVoxels::redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw) {

@@ -59,7 +59,7 @@ class LitVoxels {
 
     // Draws other light samples of the same light, for pixels that average several draws; endDraws() frees what that takes.
     base::Steps redrawInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t draw);
-    void endDraws() { cache_.endDraws(); }
+    void endDraws() { cache_.endSharing(); }
 
     // Takes light over to voxels that a picture has left behind, before they become others: it goes from voxels to the
     // next ones only.

@@ -207,7 +207,6 @@ int LightField::Impl::update(const LightBudget& budget) {
                                .start = start});
     else
         lit.relight(onLevels, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
-    if (!settings.traced.budgeted) lit.endDraws();  // gather() takes it again
     stats.waits = gl::waitCount() - waitedBefore;
     return lit.updates();
 }

@@ -10,23 +10,33 @@
 namespace conelight::test {
 namespace {
 
-using TracedStillsTest = TracedModeTest;
+// Indirect light as the best quality has it, all passes.
+class TracedStillsTest : public TracedModeTest {
+  protected:
+    static Settings convergedSettings(int voxels) {
+        Settings settings;
+        settings.mode = Mode::Traced;
+        settings.component = Component::Indirect;
+        settings.voxels.size = voxels;
+        applyQuality(settings.traced, Quality::Converged);
+        return settings;
+    }
+    static Image drawn(const Scene& scene, int width, int height, const Settings& settings) {
+        Renderer renderer;
+        renderer.setScene(scene);
+        renderer.render(scene.cameras.front(), width, height, settings);
+        return renderer.readImage();
+    }
+};
 
 // A draw of light samples errs by some of what it stands for. Passes aim at draws of their own, so means of squares of a
 // furnace, in which all is alike, come closer to each other the more there are.
 TEST_F(TracedStillsTest, PassesAimAtDrawsOfTheirOwn) {
     const Scene scene = io::generateScene("furnace?albedo=0.5&emission=1");
-    Settings settings;
-    settings.mode = Mode::Traced;
-    settings.component = Component::Indirect;
-    settings.voxels.size = 64;
-    applyQuality(settings.traced, Quality::Converged);
+    Settings settings = convergedSettings(64);
     settings.traced.filterLevels = 0;
     constexpr int kPixels = 96, kSquare = 16, kSquares = kPixels / kSquare;
-    Renderer renderer;
-    renderer.setScene(scene);
-    renderer.render(scene.cameras.front(), kPixels, kPixels, settings);
-    const Image image = renderer.readImage();
+    const Image image = drawn(scene, kPixels, kPixels, settings);
     std::array<double, kSquares * kSquares> means{};
     double mean = 0;
     for (int y = 0; y < kPixels; ++y)
@@ -46,17 +56,10 @@ TEST_F(TracedStillsTest, PassesAimAtDrawsOfTheirOwn) {
 // few rays are aimed at: that one ray may not show.
 TEST_F(TracedStillsTest, RimsOfBulbsThrowNoDotsOnTools) {
     const Scene scene = io::generateScene("workshop");
-    Settings settings;
-    settings.mode = Mode::Traced;
-    settings.component = Component::Indirect;
-    settings.voxels.size = 128;
-    applyQuality(settings.traced, Quality::Converged);
+    Settings settings = convergedSettings(128);
     settings.traced.cacheUpdates = 10;
     settings.traced.cacheRays = 2;
-    Renderer renderer;
-    renderer.setScene(scene);
-    renderer.render(scene.cameras.front(), 80, 60, settings);
-    const Image image = renderer.readImage();
+    const Image image = drawn(scene, 80, 60, settings);
     const float least = 4.0f * static_cast<float>(meanOf(image));
     const int dots = dotsIn(image, [&](float own, const std::array<float, 9>& around) {
         return own > 2.5f * around[7] && own > least;
