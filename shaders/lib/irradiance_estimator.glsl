@@ -8,6 +8,7 @@
 #include "lib/cached_part.glsl"
 #include "lib/dot.glsl"
 #include "lib/light_sample.glsl"
+#include "lib/sky_guide.glsl"
 #if PIXEL_SHIFTS
 #include "lib/pixel_shift.glsl"
 #endif
@@ -83,14 +84,29 @@ struct EstimatorSettings {
 
 const int kTowardsSky = -2;
 
-// Share of the light-sampled rays that go to the surroundings, not to faces.
-float skySampleShare(float inverseFlux) {
+// Light-sampled rays that go to the surroundings, not to faces.
+struct SkySamples {
+    float share;  // of light-sampled rays
+    int row;      // of the guide
+};
+
+SkySamples skySamplesAt(SurfacePoint point, LightRow lights) {
+    SkySamples sky = SkySamples(0.0, 0);
 #if ENVIRONMENT
-    return inverseFlux > 0.0 ? kEnvironmentShare : 1.0;
-#else
-    return 0.0;
+    sky.share = kEnvironmentShare;
+#elif GUIDED_RAYS
+    sky.row = skyRowAt(point.origin, point.shadingNormal);
+    sky.share = skyShareOfRow(sky.row);
 #endif
+    if (sky.share > 0.0 && lights.inverseFlux <= 0.0) sky.share = 1.0;
+    return sky;
 }
+
+#if ENVIRONMENT || GUIDED_RAYS
+#define SKY_SAMPLES 1
+#else
+#define SKY_SAMPLES 0
+#endif
 
 // A ray drawn by one of the two techniques.
 struct SampledRay {
@@ -103,17 +119,21 @@ struct SampledRay {
 
 // Ray `i` of an estimate: cosine-sampled ones first, then light-sampled ones.
 SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceState sequence, int i,
-                     LightRow lights) {
+                     LightRow lights, SkySamples sky) {
     bool lightSampled = i >= settings.cosineSamples;
 
     // Sample a point on a light face
     uint lightIndex = sequence.index * uint(settings.lightSamples) + uint(max(i - settings.cosineSamples, 0));
     vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + shiftOf(sequence).zxy);
+#if SKY_SAMPLES
+    bool towardsSky = lightSampled && xiLight.x < sky.share;
+    vec3 xiSky = vec3(xiLight.x / max(sky.share, 1e-6), xiLight.yz);
 #if ENVIRONMENT
-    float skyShare = skySampleShare(lights.inverseFlux);
-    bool towardsSky = lightSampled && xiLight.x < skyShare;
-    vec3 skyDirection = environmentDirection(vec2(xiLight.x / skyShare, xiLight.y));
-    xiLight.x = max(xiLight.x - skyShare, 0.0) / max(1.0 - skyShare, 1e-6);
+    vec3 skyDirection = environmentDirection(xiSky.xy);
+#else
+    vec3 skyDirection = guidedDirection(sky.row, xiSky);
+#endif
+    xiLight.x = max(xiLight.x - sky.share, 0.0) / max(1.0 - sky.share, 1e-6);
 #else
     const bool towardsSky = false;
 #endif
@@ -128,7 +148,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
     vec3 direction =
         lightSampled ? toLight / max(lightDistance, 1e-6) : cosineDirection(point.shadingNormal, xi);
 
-#if ENVIRONMENT
+#if SKY_SAMPLES
     direction = towardsSky ? skyDirection : direction;
 #endif
 
@@ -157,12 +177,15 @@ bool reachesItsLight(SampledRay drawn, VoxelHit hit) {
     return reached;
 }
 
-// Density per steradian among light-sampled rays, given what the ray hit; `skyPdf`: of its direction among those
-// that go to the surroundings.
-float lightPdf(Ray ray, VoxelHit hit, LightRow lights, float skyPdf) {
-    float skyShare = skySampleShare(lights.inverseFlux);
-    float pdf = (1.0 - skyShare) * lightFacePdf(ray, hit, lights);
-    pdf = hit.face >= 0 ? pdf : skyShare * skyPdf;
+// Density per steradian among light-sampled rays, given what the ray hit; `picturePdf`: of its direction among those
+// that go by the picture of the surroundings.
+float lightPdf(Ray ray, VoxelHit hit, LightRow lights, SkySamples sky, float picturePdf) {
+    float pdf = (1.0 - sky.share) * lightFacePdf(ray, hit, lights);
+#if ENVIRONMENT
+    pdf = hit.face >= 0 ? pdf : sky.share * picturePdf;
+#elif GUIDED_RAYS
+    pdf = hit.face >= 0 ? pdf : sky.share * guidedPdf(sky.row, ray.direction);
+#endif
 #if NEAR_TRIANGLES
     pdf = hit.near ? 0.0 : pdf;
 #endif
@@ -175,6 +198,7 @@ float lightPdf(Ray ray, VoxelHit hit, LightRow lights, float skyPdf) {
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
     LightRow lights = lightRowAt(point.origin, point.shadingNormal);
+    SkySamples sky = skySamplesAt(point, lights);
     uint random = randomHash(sequence.ofBounces) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
     BEGIN_CACHED();
@@ -184,7 +208,7 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
     do {
         // Draw a ray
         bool lightSampled = i >= settings.cosineSamples;
-        SampledRay drawn = sampleRay(point, settings, sequence, i, lights);
+        SampledRay drawn = sampleRay(point, settings, sequence, i, lights, sky);
         COUNT_LOOKUP(lightSampled ? 3 : 0);  // its cluster, the light sample and its record
 
         // Intersect the voxels and follow glossy bounces
@@ -193,9 +217,9 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
                                          settings.fireflyClamp, 0.0, 0.0);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
-        float skyPdf = 0.0;
+        float picturePdf = 0.0;
 #if ENVIRONMENT
-        vec3 cell = environmentCell(drawn.ray.direction, skyPdf);
+        vec3 cell = environmentCell(drawn.ray.direction, picturePdf);
         radiance = hit.face >= 0 ? radiance : cell;
 #endif
         radiance = throughGlass(radiance, drawn.ray, hit);
@@ -210,10 +234,12 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         }
 #endif
 
+        LEARN_SKY(drawn.valid && !lightSampled, hit, drawn.ray.direction, radiance);
+
         // Compute the MIS weight: both techniques' densities for this direction
         bool reached = !lightSampled || reachesItsLight(drawn, hit);
         float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +
-                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, lights, skyPdf);
+                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, lights, sky, picturePdf);
         float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);
 
         // Add the contribution

@@ -7,6 +7,7 @@
 // FIND_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
 #define CACHED_PART 1
+#define LEARNS_SKY 1
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
@@ -43,10 +44,16 @@ void main() {
     SurfacePoint point = SurfacePoint(rayOrigin(faceCenter(record), normal), normal, normal);
     EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
                                                    int(cache.reflections), cache.fireflyClamp);
+#if SKY_GUIDE
+    learningRow = used ? skyRowAt(point.origin, normal) : -1;
+#endif
     float backFaceShare;
     SequenceState sequence = SequenceState(seed, cache.update, shift, seed);
     vec3 found = estimateIrradiance(point, settings, sequence, backFaceShare);
     if (!used) return;
+#if SKY_GUIDE
+    endLearning(cache.cosineRays);
+#endif
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;
     // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like

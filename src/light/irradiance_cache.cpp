@@ -108,6 +108,7 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
     if (!carried_) {
         dark_ = true;
         balance_.restart(LightBalance::Restart::Dark);
+        guide_.restart();
     }
     reserve(surface.mostFaces());
     samples_.reserve(voxels.grid(), surface.mostFaces());
@@ -300,6 +301,7 @@ gl::Inputs IrradianceCache::givenToUpdates(const Inputs& inputs) const {
         .texture("stateTexels", stateTexels_)
         .texture("order", order_.texels())
         .add(balance_);
+    guide_.declareLearned(given);
     return given;
 }
 
@@ -375,6 +377,8 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
                                            const CacheSettings& settings, int passes) {
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
+    const bool learns = inputs.lights.guidesToSky();
+    if (learns) guide_.reserve();
     if (faceCount_ == 0) co_return;
     balance_.reserve(faceCount_);
     if (passes > 0) dark_ = false;
@@ -388,6 +392,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         if (goesUncounted(settings)) {
             visitUncounted(device, inputs, settings);
             ++updatesMade_;
+            if (learns) guide_.learn(device, constants_);
             if (balances) balance_.correct(device, faces, {std::min(rounds, settings.longestWindow), 1.0f});
             co_await commit(device, inputs, settings, i + 1 == passes);
             continue;
@@ -403,6 +408,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
+        if (learns) guide_.learn(device, constants_);
         if (balances && updates() > rounds)
             balance_.correct(device, faces,
                              {std::min(rounds, settings.longestWindow),
@@ -436,15 +442,15 @@ int IrradianceCache::updates() const {
 }
 
 void IrradianceCache::declare(gl::Inputs& inputs) const {
-    inputs.add(samples_).texture("faceLight", faceLightTexels_);
+    inputs.add(samples_).add(guide_).texture("faceLight", faceLightTexels_);
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("restart"), pass("reproject"), pass("share"), pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
-    for (const auto& more :
-         {FaceOrder::programDescs(), LightBalance::programDescs(), LightSamples::programDescs()})
+    for (const auto& more : {FaceOrder::programDescs(), LightBalance::programDescs(),
+                             LightSamples::programDescs(), SkyGuide::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

@@ -18,6 +18,7 @@
 #include "light/light_samples.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
+#include "light/sky_guide.h"
 #include "scene/gpu_scene.h"
 #include "shared/irradiance.h"
 #include "voxels/voxels.h"
@@ -86,8 +87,9 @@ class IrradianceCache {
         return visits_;
     }
 
-    void declare(gl::Inputs& inputs) const;  // lightSamples, faceLight
+    void declare(gl::Inputs& inputs) const;  // lightSamples, faceLight, skyGuide
     const LightSamples& samples() const { return samples_; }
+    const SkyGuide& guide() const { return guide_; }
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
     const gl::Buffer& order() const { return order_.buffer(); }  // a face per place, for tests
 
@@ -136,6 +138,7 @@ class IrradianceCache {
         ranges_, rangeBlock_;
     gl::Texture faceLightTexels_, sharedLightTexels_, stateTexels_, oldStateTexels_;
     LightSamples samples_;
+    SkyGuide guide_;
     CacheSettings committedWith_;
     FaceOrder order_;
     LightBalance balance_;

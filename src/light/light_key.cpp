@@ -120,15 +120,19 @@ gl::Defines HitKey::defines() const {
     defines.emplace_back("LOBES", lobes ? "1" : "0");
     if (exact && (lobes || gloss)) defines.emplace_back("GLOSS", "1");
     if (environment) defines.emplace_back("ENVIRONMENT", "1");
+    if (guided) defines.emplace_back("SKY_GUIDE", "1");
     if (glass) defines.emplace_back("GLASS", "1");
     return defines;
 }
 
 std::vector<HitKey> HitKey::all(int filter) {
     std::vector<HitKey> keys;
-    for (int bits = 0; bits < 8; ++bits) {
-        HitKey key{
-            .lobes = (bits & 2) != 0, .environment = (bits & 4) != 0, .glass = (bits & 1) != 0, .lights = {}};
+    for (int bits = 0; bits < 12; ++bits) {
+        HitKey key{.lobes = (bits & 2) != 0,
+                   .environment = bits / 4 == 1,
+                   .guided = bits / 4 == 2,
+                   .glass = (bits & 1) != 0,
+                   .lights = {}};
         for (const bool shaped : {true, false}) {
             key.lights.shaped = shaped;
             keys.push_back(key);

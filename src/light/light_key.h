@@ -48,12 +48,14 @@ struct LampKey {
 
 // What rays do where they hit.
 struct HitKey {
-    bool exact = false;        // punctual lights are looked up; else faces give all light
-    bool lobes = false;        // metals reflect in their lobe
-    bool gloss = false;        // of exact ones without lobes: dielectrics reflect punctual lights in theirs
-    bool environment = false;  // where they hit nothing they see a picture, not the constant sky alone
-    bool glass = false;        // light passes glass on its way
-    LightKey lights;           // of `exact`: the punctual ones, filter 0 or -1
+    bool exact = false;  // punctual lights are looked up; else faces give all light
+    bool lobes = false;  // metals reflect in their lobe
+    bool gloss = false;  // of exact ones without lobes: dielectrics reflect punctual lights in theirs
+    // Where they hit nothing they see a picture; or a constant sky that is not black, to which others are guided.
+    bool environment = false;
+    bool guided = false;
+    bool glass = false;  // light passes glass on its way
+    LightKey lights;     // of `exact`: the punctual ones, filter 0 or -1
 
     gl::Defines defines() const;
     // `filter`: of exact ones, 0 or -1.

@@ -143,6 +143,7 @@ void Lights::upload(const Scene& scene) {
         tableBuffer_.update(0, table_.data(), table_.size() * sizeof(gpu::Light));
     gpu::LightingConstants constants{};
     constants.sky = scene.sky;
+    hasConstantSky_ = scene.sky != glm::vec3(0);
     constants.lightEnds = ends_;
     environment_.describe(scene.environment, constants);
     block_.update(constants);
@@ -184,6 +185,7 @@ HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     const Lobes lobes = lobesOf(scene);
     key.lobes = lobes == Lobes::Metals;
     key.environment = hasEnvironment();
+    key.guided = guidesToSky();
     key.glass = hasGlass();
     key.lights.shaped = shaped_;
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights && lampsOfTree_ == 0;

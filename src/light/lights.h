@@ -78,6 +78,8 @@ class Lights {
     bool hasCaustics() const { return caustics_.any(); }
     const Caustics& caustics() const { return caustics_; }
     bool hasEnvironment() const { return environment_.hasPicture(); }
+    // A picture's bright parts are aimed at; of a constant sky rays learn where it is seen (light/sky_guide.h).
+    bool guidesToSky() const { return hasConstantSky_ && !hasEnvironment(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
     std::size_t shadowBytes() const { return shadows_.bytes(); }  // of the shadow maps
 
@@ -101,6 +103,7 @@ class Lights {
     LampTable lamps_;
     ShadowMaps shadows_;
     EnvironmentTable environment_;
+    bool hasConstantSky_ = false;
     scene::GlassTree glass_;  // that light passes
     Caustics caustics_;
     base::Revision lightsOfCaustics_, voxelsOfCaustics_;  // that they were made from

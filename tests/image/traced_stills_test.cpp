@@ -68,5 +68,23 @@ TEST_F(TracedStillsTest, RimsOfBulbsThrowNoDotsOnTools) {
     EXPECT_LE(dots, 1);
 }
 
+// Light of the sky falls through two skylights, which few cosine-sampled rays find. Rays are guided there, and the mean of
+// many is the same.
+TEST_F(TracedStillsTest, RoomsFindTheirSkylights) {
+    const Scene scene = io::generateScene("loft?sun=0");
+    Settings settings = convergedSettings(64);
+    applyQuality(settings.traced, Quality::Interactive);
+    settings.traced.filterLevels = 0;
+    const Image few = drawn(scene, 64, 48, settings);
+    settings.traced.passes = 256;
+    const Image many = drawn(scene, 64, 48, settings);
+    double error = 0;
+    for (std::size_t i = 0; i < few.pixels.size(); ++i)
+        error += static_cast<double>(glm::length(few.pixels[i] - many.pixels[i])) / std::sqrt(3.0);
+    error /= static_cast<double>(few.pixels.size());
+    EXPECT_LT(error / meanOf(many), 0.24);  // 0.33 with cosine-sampled rays alone
+    EXPECT_NEAR(meanOf(few) / meanOf(many), 1.0, 0.02);
+}
+
 }  // namespace
 }  // namespace conelight::test
