@@ -5,6 +5,10 @@
 #include "shared/irradiance.h"
 #include "shared/sky_guide.h"
 layout(local_size_x = SKY_ROW_LANES) in;
+#define PREFIX_TYPE uint
+#define PREFIX_LANES SKY_ROW_LANES
+#define PREFIX_CHUNKS 0
+#include "lib/prefix_sum.glsl"
 layout(std140) uniform CacheBlock { CacheConstants cache; };
 layout(std430) buffer SkyLearnedTable { uint skyLearned[]; };
 layout(std430) writeonly buffer SkyGuideTable { uint skyGuideTable[]; };
@@ -14,7 +18,6 @@ const int kBinsOfLane = SKY_BINS / SKY_ROW_LANES;
 // has found it.
 const uint kOfOwn = 4u, kOfAll = 8u;
 
-shared uint sums[SKY_ROW_LANES];
 shared uint words[SKY_GUIDE_WORDS];
 
 uint seenIn(uint learned, ivec2 bin) {
@@ -27,21 +30,6 @@ uint smoothedBin(uint learned, int index) {
     return kOfOwn * seenIn(learned, bin) + seenIn(learned, bin + ivec2(1, 0)) +
            seenIn(learned, bin - ivec2(1, 0)) + seenIn(learned, bin + ivec2(0, 1)) +
            seenIn(learned, bin - ivec2(0, 1));
-}
-
-// The sum over all lanes before this one, and over all. Every invocation calls it, once.
-uint sumBefore(uint own, out uint total) {
-    uint lane = gl_LocalInvocationIndex;
-    sums[lane] = own;
-    barrier();
-    for (uint reach = 1u; reach < uint(SKY_ROW_LANES); reach *= 2u) {
-        uint before = lane >= reach ? sums[lane - reach] : 0u;
-        barrier();
-        sums[lane] += before;
-        barrier();
-    }
-    total = sums[SKY_ROW_LANES - 1];
-    return sums[lane] - own;
 }
 
 void main() {
@@ -61,7 +49,17 @@ void main() {
         sum += seen[i];
     }
     uint total;
-    uint end = sumBefore(sum, total);
+    uint end = prefixBefore(sum, total);
+    uint ofFaces = skyLearned[learned + uint(SKY_FACES_AT)];  // lane 0 asks
+
+    // Forget
+    if (rays >= SKY_MOST_RAYS) {
+        for (int i = 0; i < kBinsOfLane; ++i) skyLearned[learned + uint(first + i)] /= 2u;
+        if (lane == 0u) {
+            skyLearned[learned + uint(SKY_RAYS_AT)] = rays / 2u;
+            skyLearned[learned + uint(SKY_FACES_AT)] = ofFaces / 2u;
+        }
+    }
     if (total == 0u) {
         if (lane == 0u) skyGuideTable[uint(SKY_GUIDE_WORDS) * row] = 0u;
         return;
@@ -81,16 +79,9 @@ void main() {
     // Share rays by what sky and faces bring, but for what cosine-sampled rays find of the sky as surely
     float ofSky = float(total) / float(kOfAll);
     ofSky *= max(1.0 - ofSky / float(rays), 0.0);
-    float ofFaces = float(skyLearned[learned + uint(SKY_FACES_AT)]) / float(SKY_FACE_PARTS);
-    if (lane == 0u) words[0] = floatBitsToUint(ofSky / max(ofSky + ofFaces, 1e-6));
+    float others = float(ofFaces) / float(SKY_FACE_PARTS);
+    if (lane == 0u) words[0] = floatBitsToUint(ofSky / max(ofSky + others, 1e-6));
     barrier();
     for (uint i = lane; i < uint(SKY_GUIDE_WORDS); i += uint(SKY_ROW_LANES))
         skyGuideTable[uint(SKY_GUIDE_WORDS) * row + i] = words[i];
-
-    // Forget
-    if (rays < SKY_MOST_RAYS) return;
-    for (int i = 0; i < kBinsOfLane; ++i) skyLearned[learned + uint(first + i)] /= 2u;
-    if (lane > 0u) return;
-    skyLearned[learned + uint(SKY_RAYS_AT)] = rays / 2u;
-    skyLearned[learned + uint(SKY_FACES_AT)] /= 2u;
 }

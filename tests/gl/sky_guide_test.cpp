@@ -101,10 +101,13 @@ TEST_F(SkyGuideTest, ClosedRoomsAimAtNoSky) {
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0.6f)));
     scene.sky = glm::vec3(2);
     CacheRig rig(programs(), scene, 64);
-    rig.update(4);
+    rig.update(SKY_ROW_PARTS);
     const std::vector<GuideRow> rows = guideOf(rig);
     const int middle = LIGHT_BLOCKS_OF_GRID / 2 - 1;
     const int floor = 6 * (middle + LIGHT_BLOCKS_OF_GRID * LIGHT_BLOCKS_OF_GRID * middle) + 2;  // looks up
+    const auto learned =
+        rig.cache.guide().learned().read<std::uint32_t>(std::size_t{SKY_LEARNED_WORDS} * LIGHT_CLUSTERS);
+    ASSERT_GT(learned[static_cast<std::size_t>(SKY_LEARNED_WORDS * floor + SKY_RAYS_AT)], 0u);
     EXPECT_EQ(rows[static_cast<std::size_t>(floor)].share, 0.0f);
 }
 
