@@ -37,6 +37,7 @@ PathTracerSettings tracerSettings(const LightmapSettings& settings) {
     result.samplesPerPixel = settings.samples;
     result.bounces = settings.bounces;
     result.seed = settings.seed;
+    result.emissiveSpheres = false;  // hosts know of none
     return result;
 }
 
@@ -46,7 +47,7 @@ class Bake {
         : scene_(scene),
           light_(scene, {settings.samples, settings.bounces, settings.seed}),
           paths_(scene, light_.rays(), tracerSettings(settings)),
-          lights_(scene, true, true),
+          lights_(scene, DirectEmitters{true, false}, true),
           settings_(settings),
           touching_(kTouching * layout.texel) {}
 

@@ -11,6 +11,7 @@
 #include "reference/sphere_light.h"
 #include "reference/surface.h"
 #include "scene/emissive_quads.h"
+#include "scene/emissive_spheres.h"
 
 namespace conelight::reference {
 namespace {
@@ -91,7 +92,7 @@ bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result)
     return true;
 }
 
-LightTable::LightTable(const Scene& scene, bool quads, bool extended)
+LightTable::LightTable(const Scene& scene, DirectEmitters direct, bool extended)
     : scene_(scene), ofInstance_(scene.instances.size()) {
     sceneRadius_ = std::max(0.5f * glm::length(scene.bounds().extent()), 1e-6f);
     for (const Instance& instance : scene.instances)
@@ -99,14 +100,18 @@ LightTable::LightTable(const Scene& scene, bool quads, bool extended)
             sameBlockers_ = false;
     for (const Light& light : scene.lights)
         if (light.enabled) addLight(light);
-    if (quads)
+    if (direct.quads)
         for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) {
             OfInstance& of = ofInstance_[quad.instance];
+            of.direct = true;
             of.twoSided = of.first != kNone;
             if (!of.twoSided) of.first = static_cast<std::uint32_t>(emitters_.size());
             of.quad = true;
             addRect(quad.light, static_cast<std::uint32_t>(quad.instance), true);
         }
+    if (direct.spheres)
+        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene))
+            ofInstance_[sphere.instance].direct = true;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (!ofInstance_[i].quad) addTriangles(scene, i);
     setGroups(extended);
@@ -138,7 +143,7 @@ void LightTable::addSphere(const Light& light) {
     e.radius = glm::length(light.halfU);
     e.area = std::numbers::pi_v<float> * e.radius * e.radius;
     if (!(e.area > 0)) return;
-    hasQuadsOrRects_ = true;
+    hasExtendedLamps_ = true;
     rectsToTest_.push_back(static_cast<std::uint32_t>(emitters_.size()));
     emitters_.push_back(e);
 }
@@ -161,7 +166,7 @@ void LightTable::addRect(const Light& light, std::uint32_t instance, bool isQuad
     if (glm::dot(e.normal, light.direction) < 0) e.normal = -e.normal;
     e.area = area;
     e.instance = instance;
-    hasQuadsOrRects_ = true;
+    hasExtendedLamps_ = true;
     if (!isQuad || !sameBlockers_) rectsToTest_.push_back(static_cast<std::uint32_t>(emitters_.size()));
     emitters_.push_back(e);
 }
@@ -173,6 +178,7 @@ void LightTable::addTriangles(const Scene& scene, std::size_t index) {
     if (material.unlit || !(material.emission.r + material.emission.g + material.emission.b > 0)) return;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     ofInstance_[index].first = static_cast<std::uint32_t>(emitters_.size());
+    hasExtendedLamps_ = hasExtendedLamps_ || ofInstance_[index].direct;
     const bool mirrored = glm::determinant(glm::mat3(instance.worldFromObject)) < 0;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
         std::array<glm::vec3, 3> p;
@@ -181,7 +187,7 @@ void LightTable::addTriangles(const Scene& scene, std::size_t index) {
                              glm::vec4(mesh.positions[mesh.indices[3 * std::size_t{t} + k]], 1));
         Emitter e;
         e.kind = Kind::Triangle;
-        e.direct = false;
+        e.direct = ofInstance_[index].direct;
         e.twoSided = material.doubleSided;
         e.constant = !material.emissiveTexture.used() && material.alphaMode == AlphaMode::Opaque;
         e.radiance = material.emission;
@@ -341,7 +347,7 @@ LightTable::Found LightTable::found(const Choice& choice, const RayHit& hit,
     const OfInstance& of = ofInstance_[hit.instance];
     if (of.first == kNone) return result;
     result.emitter = true;
-    result.quad = of.quad;
+    result.direct = of.direct;
     result.elsewhere = of.quad && !sameBlockers_;
     const Emitter* e = &emitters_[of.first + (of.quad ? 0 : hit.triangle)];
     float cosine = -glm::dot(direction, e->normal);

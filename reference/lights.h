@@ -36,11 +36,16 @@ struct LightSample {
 // nothing arrives.
 bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result);
 
+// Which emissive instances count as direct light (PathTracerSettings).
+struct DirectEmitters {
+    bool quads, spheres;
+};
+
 class LightTable {
   public:
-    // With `quads`, flat emissive quads are direct light. Without `extended`, only lights that no ray can hit
+    // Emitters of the kinds of `direct` are direct light. Without `extended`, only lights that no ray can hit
     // are sampled. `scene` must outlive it.
-    LightTable(const Scene& scene, bool quads, bool extended);
+    LightTable(const Scene& scene, DirectEmitters direct, bool extended);
 
     // How often each group is asked from one surface; all zero when no group can give light.
     static constexpr std::size_t kMostGroups = 32;
@@ -65,13 +70,13 @@ class LightTable {
     // would have found this point.
     struct Found {
         bool emitter = false;    // in the table
-        bool quad = false;       // of a flat quad: direct light
+        bool direct = false;     // its light is direct
         bool elsewhere = false;  // forRectsAlong finds it
         float density = 0;
     };
     Found found(const Choice& choice, const RayHit& hit, const glm::vec3& direction) const;
 
-    // Area lights that no bounce ray finds: the scene's own, and, with `quads`, flat emissive ones when bounce
+    // Area lights that no bounce ray finds: the scene's own, and flat emissive ones that are direct, when bounce
     // rays see other instances than shadow rays. Calls visit(const LightSample&) for each that the ray meets.
     template <class Visit>
     void forRectsAlong(const Choice& choice, const glm::vec3& from, const glm::vec3& direction,
@@ -82,7 +87,7 @@ class LightTable {
         }
     }
     bool hasRectsToTest() const { return !rectsToTest_.empty(); }
-    bool hasQuadsOrRects() const { return hasQuadsOrRects_; }
+    bool hasExtendedLamps() const { return hasExtendedLamps_; }
 
   private:
     enum class Kind : std::uint8_t { Point, Directional, Rect, Sphere, Triangle };
@@ -140,12 +145,13 @@ class LightTable {
     struct OfInstance {
         std::uint32_t first = kNone;  // first triangle's emitter, or the quad's front
         bool quad = false;
+        bool direct = false;    // its light is direct
         bool twoSided = false;  // the quad's back follows its front
     };
     std::vector<OfInstance> ofInstance_;
     float sceneRadius_ = 1;
     bool sameBlockers_ = true;
-    bool hasQuadsOrRects_ = false;
+    bool hasExtendedLamps_ = false;
 };
 
 }  // namespace conelight::reference

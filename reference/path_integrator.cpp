@@ -55,7 +55,8 @@ PathIntegrator::PathIntegrator(const Scene& scene, const RayScene& rays, const P
     : scene_(scene),
       rays_(rays),
       settings_(settings),
-      lights_(scene, settings.emissiveQuads, settings.estimator != Estimator::MaterialsOnly),
+      lights_(scene, {settings.emissiveQuads, settings.emissiveSpheres},
+              settings.estimator != Estimator::MaterialsOnly),
       surroundings_(scene) {}
 
 void PathIntegrator::add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
@@ -236,9 +237,8 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     reflected *= arrival.passed;
     if (vertex.medium != nullptr) reflected *= glm::exp(-absorption(*vertex.medium) * arrival.hit.t);
     const LightTable::Found found = lights_.found(vertex.lights, arrival.hit, ray.direction);
-    const int bounce = vertex.depth + (found.quad ? 0 : 1);
-    if (!lightsOnly && !(found.quad && found.elsewhere) && wanted(vertex, bounce) &&
-        largest(next.emission) > 0)
+    const int bounce = vertex.depth + (found.direct ? 0 : 1);
+    if (!lightsOnly && !found.elsewhere && wanted(vertex, bounce) && largest(next.emission) > 0)
         add(result, vertex, bounce,
             next.emission * reflected *
                 (mis && found.density > 0 ? misWeight(value.density, found.density) : 1),
@@ -266,7 +266,7 @@ bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection,
     // The last direction only looks for direct light, which mirrors alone find in every way of finding it.
     const bool looks =
         settings_.estimator != Estimator::LightsOnly || reflection.mirrorShare() != glm::vec3(0);
-    if (last && !(looks && lights_.hasQuadsOrRects())) return false;
+    if (last && !(looks && lights_.hasExtendedLamps())) return false;
     const Reflection::Draw drawn = reflection.draw(numbers[0].x, numbers[1]);
     Ray ray;
     ray.direction = drawn.direction;

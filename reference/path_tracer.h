@@ -38,6 +38,7 @@ struct PathTracerSettings {
     Paths paths = Paths::All;
     Estimator estimator = Estimator::Mis;
     bool emissiveQuads = true;         // as light.emissive_quads: decides what is "direct"
+    bool emissiveSpheres = true;       // as light.emissive_spheres: the same
     int perBounce = 0;                 // fill PathTracedPicture::bounces for bounces 1..perBounce
     bool features = false;             // fill PathTracedPicture::features
     int threads = 0;                   // 0: all cores
@@ -55,7 +56,7 @@ struct FeaturePictures {
 };
 
 // Parts as in Component. direct: emission seen, the sky behind everything, and light that comes straight from
-// lights (flat emissive quads included, as in the GL modes). indirect = full - direct: everything else, light
+// lights (flat emissive quads and small emissive spheres included, as in the GL modes). indirect = full - direct: everything else, light
 // of the sky and of other emitters included; split by the lobe of the first surface that reflected it:
 // diffuse + specular = indirect.
 struct PathTracedPicture {

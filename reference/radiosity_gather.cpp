@@ -38,7 +38,7 @@ RadiosityLights::RadiosityLights(const Scene& scene, bool emissiveQuads)
         }
         auto single = std::make_unique<Single>();
         single->scene.lights = {light};
-        single->table = std::make_unique<LightTable>(single->scene, false, false);
+        single->table = std::make_unique<LightTable>(single->scene, DirectEmitters{false, false}, false);
         singles_.push_back(std::move(single));
     }
     for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) {

@@ -34,6 +34,16 @@ bool hasMirrors(const Scene& scene) {
     });
 }
 
+// Whether something may be a bulb (light.emissive_spheres), which tells the layers apart.
+bool hasEmissiveMeshes(const Scene& scene) {
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+        if (instance.mesh < 0 || instance.material < 0) return false;
+        const bool emits =
+            scene.materials[static_cast<std::size_t>(instance.material)].emission != glm::vec3(0);
+        return emits && scene.meshes[static_cast<std::size_t>(instance.mesh)].triangleCount() > 2;
+    });
+}
+
 std::vector<std::pair<std::string, Image ReferencePicture::*>> layerFields() {
     return {{"direct", &ReferencePicture::direct},
             {"indirect", &ReferencePicture::indirect},
@@ -76,6 +86,7 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     hash.add(static_cast<int>(s.filter));
     hash.add(static_cast<int>(s.estimator));
     hash.add(request.settings.light.emissiveQuads);
+    if (hasEmissiveMeshes(scene)) hash.add(request.settings.light.emissiveSpheres);
     if (s.paths != reference::Paths::All) hash.add(static_cast<int>(s.paths));
     if (!s.pixels.empty()) hash.add(s.pixels.data(), s.pixels.size());
     return hash.hex();

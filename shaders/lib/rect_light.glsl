@@ -227,6 +227,25 @@ float roundLobe(Light light, vec3 p, RectLobe lobe) {
 }
 #endif
 
+#if LIGHTS_SHAPED
+// A sphere is one direction to rays where its radius over its distance, squared, is so small a part of the lobe's width.
+const float kSmallSphere = 0.1;
+
+bool isSmallSphere(Light light, vec3 c, RectLobe lobe) {
+    float narrow = min(min(lobe.width.x, lobe.width.y), 1.0);
+    return isSphere(light) && roundExtent2(light) < kSmallSphere * narrow * narrow * dot(c, c);
+}
+
+float roundLobeQuick(Light light, vec3 p, RectLobe lobe) {
+    vec3 c = light.position - p;
+    if (!isSmallSphere(light, c, lobe)) return roundLobe(light, p, lobe);
+    float d2 = dot(c, c);
+    vec3 l = c * inversesqrt(d2);
+    vec3 inSpace = rectLobeSpace(lobe, l, dot(l, lobe.normal));
+    return rectLobeDensity(inSpace, lobe.width * lobe.width) * roundExtent2(light) / d2;
+}
+#endif
+
 float rectLobeShare(Light light, vec3 p, RectLobe lobe) {
 #if LIGHTS_SHAPED
     if (isRound(light)) return roundLobe(light, p, lobe);
@@ -262,7 +281,7 @@ float edgeAngleOverSine(float cosine) {
 // horizon.
 vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
 #if LIGHTS_SHAPED
-    if (isRound(light)) return b.albedo * roundLobe(light, p, lobe);
+    if (isRound(light)) return b.albedo * roundLobeQuick(light, p, lobe);
 #endif
     vec3 corner[4];
     rectCorners(light, p, corner);
@@ -291,6 +310,9 @@ const float kRectCellWidening = 1.0;
 uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
     vec3 c = light.position - p;
     uint count = light.sampleGrid * light.sampleGrid;
+#if LIGHTS_SHAPED
+    if (isSmallSphere(light, c, lobe)) return min(uint(xi * float(count)), count - 1u);
+#endif
     float cell = rectArea(light) / float(count);
     vec2 width2 = lobe.width * lobe.width + kRectCellWidening * cell / max(dot(c, c), cell);
     vec3 scale = vec3(inversesqrt(width2), 1.0);

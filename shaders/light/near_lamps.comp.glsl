@@ -6,6 +6,10 @@
 //
 // One invocation per lamp, level, voxel of the block around it, and direction; of several lamps about one voxel the first
 // does it.
+// BULBS 1: instead, the light of spheres smaller than the voxels.
+#ifndef BULBS
+#error BULBS must be 0 or 1
+#endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #define NEAR_TRIANGLES 1
 #define CLIP_SOLID_ANGLE 1
@@ -24,7 +28,11 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "shared/lamps.h"
 layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
 layout(std430) buffer LitFaceTable { LitFace litFaces[]; };
+#if BULBS
+layout(std430) buffer CachedDirect { uint cachedDirect[]; };
+#else
 layout(std430) readonly buffer CachedDirect { uint cachedDirect[]; };
+#endif
 uniform usamplerBuffer voxelFaceMaterials;
 
 const float kLeastArea = 4.0 / 65535.0;  // that a face can tell (lib/voxel_record.glsl), voxel sides
@@ -41,9 +49,22 @@ vec3 cellFromWorld(Cell cell, vec3 world) {
 vec3 worldFromCell(Cell cell, vec3 p) {
     return worldFromGrid(cell.place.xyz + cell.place.w * (vec3(cell.voxel) + 0.5 + p));
 }
-bool isNear(Cell cell, vec3 lamp) {
-    ivec3 off = abs(ivec3(floor(cellFromWorld(cell, lamp) + 0.5)));
-    return 2 * max(off.x, max(off.y, off.z)) < NEAR_LAMP_BLOCK;
+bool isNear(Cell cell, Light lamp) {
+    ivec3 off = abs(ivec3(floor(cellFromWorld(cell, lamp.position) + 0.5)));
+    bool near = 2 * max(off.x, max(off.y, off.z)) < NEAR_LAMP_BLOCK;
+#if BULBS
+    near = near && isSphere(lamp) && length(lamp.halfU) < cell.place.w * grid.voxelSize;
+#endif
+    return near;
+}
+
+// The lamps in the table, from x on to below y.
+uvec2 lampRange() {
+#if BULBS
+    return lighting.lightEnds.zw;
+#else
+    return uvec2(0u, lighting.lightEnds.y);
+#endif
 }
 
 // A fragment (voxels/surface_clip.comp.glsl).
@@ -76,6 +97,32 @@ vec2 pieceSeen(Cell cell, Piece piece, vec3 lamp) {
     return vec2(abs(polygon.solidAngle), polygon.area);
 }
 
+// What of a lamp a place sees.
+float visibleOf(Light light, uint number, vec3 position, vec3 normal) {
+#if !LIGHTS_SHADOWS
+    return 1.0;
+#elif BULBS
+    uint count = light.sampleGrid * light.sampleGrid;
+    float sum = 0.0;
+    for (uint k = 0u; k < count; ++k)
+        sum += shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, normal);
+    return sum / float(count);
+#else
+    Receiver r = Receiver(position, normal, normal, normal, vec2(0.0));
+    return number < lighting.lightEnds.x ? pointVisibility(r, light, number)
+                                         : spotVisibility(r, light, number);
+#endif
+}
+
+// What it sends in the direction l from a place that is d2 away, W/sr.
+vec3 sentBy(Light light, vec3 l, float d2) {
+#if BULBS
+    return light.intensity * rectArea(light);
+#else
+    return light.intensity * (distanceFalloff(light, d2) * d2 * spotFalloff(light, l));
+#endif
+}
+
 // What a lamp sends to a piece, W/m^2 over its area.
 vec3 pieceIrradiance(Cell cell, Piece piece, vec3 normal, uint number) {
     Light light = lights[number];
@@ -88,14 +135,7 @@ vec3 pieceIrradiance(Cell cell, Piece piece, vec3 normal, uint number) {
     float edge = cell.place.w * grid.voxelSize;
     vec2 seen = pieceSeen(cell, piece, lamp);
     Receiver r = Receiver(position, normal, normal, normal, vec2(0.0));
-    float visible = 1.0;
-#if LIGHTS_SHADOWS
-    if (number < lighting.lightEnds.x)
-        visible = pointVisibility(r, light, number);
-    else
-        visible = spotVisibility(r, light, number);
-#endif
-    vec3 intensity = light.intensity * (distanceFalloff(light, d2) * d2 * spotFalloff(light, l) * visible);
+    vec3 intensity = sentBy(light, l, d2) * visibleOf(light, number, position, normal);
     return throughGlass(intensity, r, l, sqrt(d2)) * (seen.x / max(seen.y * edge * edge, 1e-12));
 }
 
@@ -120,11 +160,35 @@ vec3 sumOfPieces(Cell cell, uint chain, vec3 direction, uint number) {
 // Of all these lamps. `area`: what of the pieces is the face's own, which is less than all where some hide others.
 vec3 nearIrradiance(Cell cell, uint chain, vec3 direction, float area) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < lighting.lightEnds.y; ++i)
-        if (isNear(cell, lights[i].position)) sum += sumOfPieces(cell, chain, direction, i);
+    uvec2 range = lampRange();
+    for (uint i = range.x; i < range.y; ++i)
+        if (isNear(cell, lights[i])) sum += sumOfPieces(cell, chain, direction, i);
     return sum / max(area, kLeastArea);
 }
 
+#if BULBS
+// Of all these, at the middle of a face.
+vec3 middleIrradiance(Cell cell, FaceRecord face) {
+    vec3 normal = faceNormal(face);
+    Receiver receiver = Receiver(worldFromGrid(faceCenter(face)), normal, normal, normal, kShadowVoxelLift);
+    Brdf none;
+    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
+    uvec2 range = lampRange();
+    for (uint i = range.x; i < range.y; ++i)
+        if (isNear(cell, lights[i])) addRect(sum, false, receiver, none, lights[i]);
+    return sum.irradiance;
+}
+
+// What the lamps give to a face, in place of their light at its middle.
+void lightFace(Cell cell, uint chain, int direction, uint face) {
+    float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
+    vec3 more =
+        nearIrradiance(cell, chain, directionVector(direction), area) - middleIrradiance(cell, faces[face]);
+    more *= unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
+    litFaces[face].radiance = packRgb9e5(max(unpackRgb9e5(litFaces[face].radiance) + more, vec3(0.0)));
+    cachedDirect[face] = packRgb9e5(max(unpackRgb9e5(cachedDirect[face]) + more, vec3(0.0)));
+}
+#else
 // Of all others, at the middle of a face.
 vec3 farIrradiance(Cell cell, FaceRecord face) {
     vec3 normal = faceNormal(face);
@@ -132,7 +196,7 @@ vec3 farIrradiance(Cell cell, FaceRecord face) {
     Brdf none;
     DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < lighting.lightEnds.y; ++i) {
-        if (isNear(cell, lights[i].position)) continue;
+        if (isNear(cell, lights[i])) continue;
         if (i < lighting.lightEnds.x)
             addPoint(sum, false, receiver, none, lights[i], i);
         else
@@ -141,6 +205,15 @@ vec3 farIrradiance(Cell cell, FaceRecord face) {
     FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, false, receiver, none, light, number))
     return sum.irradiance;
 }
+
+void lightFace(Cell cell, uint chain, int direction, uint face) {
+    float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
+    vec3 irradiance =
+        nearIrradiance(cell, chain, directionVector(direction), area) + farIrradiance(cell, faces[face]);
+    vec3 reflectance = unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
+    litFaces[face].radiance = packRgb9e5(unpackRgb9e5(cachedDirect[face]) + reflectance * irradiance);
+}
+#endif
 
 void main() {
     // The voxel, of the block around a lamp
@@ -156,8 +229,9 @@ void main() {
     uint index = linearIndex() / 6u;
     int place = int(index % uint(block * block * block));
     int level = int(index / uint(block * block * block) % levels);
-    uint lamp = index / (uint(block * block * block) * levels);
-    if (lamp >= lighting.lightEnds.y) return;
+    uvec2 range = lampRange();
+    uint lamp = range.x + index / (uint(block * block * block) * levels);
+    if (lamp >= range.y) return;
     Cell cell;
 #if NESTED_GRIDS
     cell.place = levelPlace(level);
@@ -180,18 +254,15 @@ void main() {
     int recordIndex = int(voxelRecordIndex(word, bitOfVoxel(stored)));
     uint record = texelFetch(voxelRecords, recordIndex).x;
     if ((faceDirections(record) >> direction & 1u) == 0u) return;
-    for (uint i = 0u; i < lamp; ++i)
-        if (isNear(cell, lights[i].position)) return;
+    for (uint i = range.x; i < lamp; ++i)
+        if (isNear(cell, lights[i])) return;
+#if BULBS
+    if (!isNear(cell, lights[lamp])) return;
+#endif
 
 #if GLASS
     veilNear = kVeilNearVoxels * cell.place.w * grid.voxelSize;
 #endif
     // Light it
-    uint face = faceIndex(record, direction);
-    uint chain = texelFetch(voxelChains, recordIndex).x;
-    float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
-    vec3 irradiance =
-        nearIrradiance(cell, chain, directionVector(direction), area) + farIrradiance(cell, faces[face]);
-    vec3 reflectance = unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
-    litFaces[face].radiance = packRgb9e5(unpackRgb9e5(cachedDirect[face]) + reflectance * irradiance);
+    lightFace(cell, texelFetch(voxelChains, recordIndex).x, direction, faceIndex(record, direction));
 }

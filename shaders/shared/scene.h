@@ -121,9 +121,10 @@ struct Material {
 // times LIGHT_AIM_DISTANCE, aside by cosInner and cosOuter in parts of that.
 #define LIGHT_AIMED 0x100u
 #define LIGHT_AIM_DISTANCE 1e5f
-#define LIGHT_FROM_EMITTER 2u  // stands for an emissive rectangle of the scene (light/emissive_quads.h)
-#define LIGHT_DISK 4u          // the ellipse in the rectangle
-#define LIGHT_SPHERE 8u        // halfU, halfV and direction times the radius are its axes
+#define LIGHT_FROM_EMITTER \
+    2u                   // stands for an emissive instance (scene/emissive_quads.h, scene/emissive_spheres.h)
+#define LIGHT_DISK 4u    // the ellipse in the rectangle
+#define LIGHT_SPHERE 8u  // halfU, halfV and direction times the radius are its axes
 
 struct Light {
     vec3 position;
@@ -142,7 +143,7 @@ struct Light {
     float cosOuter;  // none outside
     // ---- 80 B
     vec3 falloff;        // constant, linear, quadratic
-    uint customFalloff;  // 1: use it, 0: inverse square
+    uint customFalloff;  // 1: use it, 0: inverse square; of LIGHT_FROM_EMITTER: the instance
     // ---- 96 B: filled in by the light stage
     float shadowNear;   // depth in the map is shadowNear / distance along the map's axis; directional: 1 -
                         // shadowNear * distance

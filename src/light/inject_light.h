@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Direct light on voxels: voxels + lights -> LitFaces, of every face the radiance
 //   emission + albedo / pi * irradiance of all lights, shadows included (lib/lights.glsl), at the centre of
-// the face's surface. Emission of rectangles that shine as area lights (LIGHT_FROM_EMITTER) is left out:
+// the face's surface. Emission of what shines as an area light (LIGHT_FROM_EMITTER) is left out:
 // their light arrives exactly, and must not arrive twice.
 #pragma once
 

@@ -8,6 +8,7 @@
 #include "gl/pace.h"
 #include "math/brdf.h"
 #include "scene/emissive_quads.h"
+#include "scene/emissive_spheres.h"
 #include "scene/gpu_lights.h"
 #include "scene/gpu_materials.h"
 #include "shared/lighting.h"
@@ -44,7 +45,7 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
                           scene.skyRevision(), wanted};
     if (revision_ && from_ == sources) co_return;
     revision_ = {};
-    fillTable(scene.source(), wanted.emissiveQuads);
+    fillTable(scene.source(), wanted);
     const bool veils =
         wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
     LampTree tree;
@@ -104,16 +105,23 @@ base::Steps Lights::castCausticsInSteps(const gl::Device& device, const scene::G
     revision_ = base::Revision::next();
 }
 
-void Lights::fillTable(const Scene& scene, bool emissiveQuads) {
+// Area lights are the last kind, so the table stays sorted.
+void Lights::addEmitter(const Light& light, std::size_t instance) {
+    table_.push_back(scene::packedLights({light}).front());
+    table_.back().flags |= LIGHT_FROM_EMITTER;
+    table_.back().customFalloff = static_cast<std::uint32_t>(instance);
+    emitters_[instance] = 1;
+}
+
+void Lights::fillTable(const Scene& scene, const LightsWanted& wanted) {
     table_ = scene::packedLights(scene.lights);
     emitters_.assign(scene.instances.size(), 0);
-    if (emissiveQuads)
-        for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) {
-            // Rectangles are the last kind, so the table stays sorted.
-            table_.push_back(scene::packedLights({quad.light}).front());
-            table_.back().flags |= LIGHT_FROM_EMITTER;
-            emitters_[quad.instance] = 1;
-        }
+    if (wanted.emissiveQuads)
+        for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene))
+            addEmitter(quad.light, quad.instance);
+    if (wanted.emissiveSpheres)
+        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene))
+            addEmitter(sphere.light, sphere.instance);
     ends_ = scene::lightEnds(table_);
     shaped_ = std::any_of(table_.begin(), table_.end(),
                           [](const gpu::Light& one) { return (one.flags & kShaped) != 0; });

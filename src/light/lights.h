@@ -26,11 +26,12 @@ namespace conelight::light {
 // What a picture asks of the lights.
 struct LightsWanted {
     LightSettings settings;
-    bool emissiveQuads = true;  // flat emitters are in the table
-    bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
-    bool caustics = false;      // castCaustics will follow
-    bool veils = false;         // blended surfaces hide light by their opacity, not all of it or none
-    bool lampTree = false;      // where there are many, lamps are drawn by chance (LightSettings::exactLamps)
+    bool emissiveQuads = true;     // flat emitters are in the table
+    bool emissiveSpheres = false;  // and small balls (scene/emissive_spheres.h)
+    bool shadowMaps = true;        // they are drawn; else the table says that nothing is in shadow
+    bool caustics = false;         // castCaustics will follow
+    bool veils = false;            // blended surfaces hide light by their opacity, not all of it or none
+    bool lampTree = false;  // where there are many, lamps are drawn by chance (LightSettings::exactLamps)
     bool operator==(const LightsWanted&) const = default;
 };
 
@@ -69,7 +70,7 @@ class Lights {
     bool drawsLamps() const { return !lamps_.empty(); }
     LampKey lampKey() const;
     const LampTable& lamps() const { return lamps_; }
-    // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
+    // Whether an instance's emission arrives from an area light of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
     bool hasGlass() const { return !glass_.empty(); }  // or veils, which light passes, too
     bool drawsGlass() const { return glass_.holdsGlass(); }
@@ -84,7 +85,8 @@ class Lights {
     std::size_t shadowBytes() const { return shadows_.bytes(); }  // of the shadow maps
 
   private:
-    void fillTable(const Scene& scene, bool emissiveQuads);
+    void fillTable(const Scene& scene, const LightsWanted& wanted);
+    void addEmitter(const Light& light, std::size_t instance);
     bool wantsTree(const scene::GpuScene& scene, const LightsWanted& wanted) const;
     base::Steps drawShadows(const gl::Device& device, const scene::GpuScene& scene, LightSettings settings,
                             bool veils);

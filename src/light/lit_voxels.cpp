@@ -100,8 +100,9 @@ base::Steps LitVoxels::putDirectLight(const gl::Device& device, const Inputs& in
     co_await gl::rest(device);
     // Where rays look lamps up where they hit, that is a point of the face.
     const bool exact = inputs.lights.hitKey(inputs.scene, settings_.exactHits).exact;
-    if (!exact && !inputs.lights.drawsLamps())
-        lightNearLamps(device, {inputs.scene, inputs.lights, inputs.voxels, directLight_}, faces_);
+    const NearLampInputs lit{inputs.scene, inputs.lights, inputs.voxels, directLight_};
+    lightNearBulbs(device, lit, faces_);
+    if (!exact && !inputs.lights.drawsLamps()) lightNearLamps(device, lit, faces_);
     if (inputs.lights.drawsLamps())
         co_await lamps_.beginInSteps(device, {inputs.scene, inputs.lights, inputs.voxels, faces_});
 }

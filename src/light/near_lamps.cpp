@@ -19,15 +19,24 @@ LightKey nearKey(LightKey lights) {
     return lights;
 }
 
-gl::ProgramDesc nearLampsDesc(const LightKey& lights) {
-    return {{"light/near_lamps.comp.glsl"}, lights.defines()};
+// Of spheres alone.
+LightKey bulbKey(LightKey lights) {
+    lights.fixed = false;
+    lights.point = lights.spot = lights.directional = lights.filter = 0;
+    lights.rect = 1;
+    lights.shaped = true;
+    return lights;
 }
 
-}  // namespace
+gl::ProgramDesc nearLampsDesc(const LightKey& lights) {
+    gl::ProgramDesc desc{{"light/near_lamps.comp.glsl"}, lights.defines()};
+    desc.defines.emplace_back("BULBS", lights == bulbKey(lights) ? "1" : "0");
+    return desc;
+}
 
-void lightNearLamps(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces) {
+void lightNear(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces,
+               const LightKey& lights, std::size_t lamps) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    const std::size_t lamps = inputs.lights.ends().y;
     if (lamps == 0 || surface.mostFaces() == 0) return;
     const gl::PassScope pass(device.profiler, "light of near lamps");
     gl::Inputs given;
@@ -38,15 +47,29 @@ void lightNearLamps(const gl::Device& device, const NearLampInputs& inputs, LitF
         .storage("CachedDirect", inputs.cachedDirect);
     surface.declareTriangles(given);
     const auto levels = static_cast<std::size_t>(std::max(surface.grid().levels, 1));
-    device.get(nearLampsDesc(nearKey(inputs.lights.key())))
-        .dispatchLinear(given, lamps * levels * kFacesOfBlock);
+    device.get(nearLampsDesc(lights)).dispatchLinear(given, lamps * levels * kFacesOfBlock);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+}
+
+}  // namespace
+
+void lightNearLamps(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces) {
+    lightNear(device, inputs, faces, nearKey(inputs.lights.key()), inputs.lights.ends().y);
+}
+
+void lightNearBulbs(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces) {
+    const std::vector<gpu::Light>& table = inputs.lights.table();
+    const bool any = std::any_of(table.begin(), table.end(),
+                                 [](const gpu::Light& light) { return (light.flags & LIGHT_SPHERE) != 0; });
+    const glm::uvec4 ends = inputs.lights.ends();
+    if (any) lightNear(device, inputs, faces, bulbKey(inputs.lights.key()), ends.w - ends.z);
 }
 
 std::vector<gl::ProgramDesc> nearLampsProgramDescs() {
     std::vector<gl::ProgramDesc> descs;
     for (const LightKey& lights : LightKey::all())
-        if (!lights.fixed && lights == nearKey(lights)) descs.push_back(nearLampsDesc(lights));
+        if (!lights.fixed && (lights == nearKey(lights) || lights == bulbKey(lights)))
+            descs.push_back(nearLampsDesc(lights));
     return descs;
 }
 

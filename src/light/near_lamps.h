@@ -18,11 +18,13 @@ struct NearLampInputs {
     const scene::GpuScene& scene;
     const Lights& lights;
     const voxels::Voxels& voxels;
-    const gl::Buffer& cachedDirect;  // RayLight::cachedDirect of injectLight
+    const gl::Buffer& cachedDirect;  // RayLight::cachedDirect of injectLight; of spheres written, too
 };
 
 // After injectLight. Ends with the barrier for shader storage and texture fetches. GL state changed: program and its slots.
 void lightNearLamps(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces);
+// The same for spheres of light that are smaller than a voxel.
+void lightNearBulbs(const gl::Device& device, const NearLampInputs& inputs, LitFaces& faces);
 
 std::vector<gl::ProgramDesc> nearLampsProgramDescs();
 

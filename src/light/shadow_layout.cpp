@@ -223,6 +223,8 @@ class Layouter {
                 perspectiveView(rectSamplePoint(light, i / 6), axes, light.shadowNear,
                                 {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
             view.surfaces = false;
+            // The points lie within the ball that shines.
+            if ((light.flags & LIGHT_FROM_EMITTER) != 0) view.without = static_cast<int>(light.customFalloff);
             place(view, light.shadow + i, 4, size_);
             views_.push_back(view);
         }

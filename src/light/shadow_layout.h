@@ -17,6 +17,7 @@ struct ShadowView {
     glm::vec2 slopeUnit;  // depth per texel of a slope of 1: x + y * depth
     int layer, x, y, width, height;
     bool surfaces;         // whether slopes and outlines are drawn
+    int without = -1;      // this instance casts no shadow into it; -1: all do
     bool clamped = false;  // what lies before the near side casts its shadow as if it were there
 
     bool samePlace(const ShadowView& other) const {

@@ -172,7 +172,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     std::vector<char> drawn(instances.size());
     bool anyOf[2] = {false, false};
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        if (!casts(instances[i])) continue;
+        if (!casts(instances[i]) || static_cast<int>(i) == view.without) continue;
         if (scene::isOutside(casters, scene.instanceBounds(i))) continue;
         const bool masked = isMasked(scene.materials()[instances[i].material]);
         drawn[i] = masked ? 2 : 1;
@@ -213,6 +213,7 @@ bool ShadowMaps::Impl::look(const scene::GpuScene& scene, const std::vector<Shad
     } else {
         for (std::size_t i = 0; i < views.size(); ++i) {
             const bool touched = views[i].clipFromWorld != drawnViews[i].clipFromWorld ||
+                                 views[i].without != drawnViews[i].without ||
                                  std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
                                      return !scene::isOutside(castersOf(views[i]), box);
                                  });

@@ -57,16 +57,20 @@ Light rectLight(const Parallelogram& quad, const Instance& instance, const Mater
 
 }  // namespace
 
+bool isPlainEmitter(const Scene& scene, const Instance& instance) {
+    if (!instance.visible || instance.material < 0) return false;
+    const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+    const bool emits = material.emission.r + material.emission.g + material.emission.b > 0;
+    return emits && !material.unlit && !material.emissiveTexture.used() &&
+           material.alphaMode != AlphaMode::Mask;
+}
+
 std::vector<EmissiveQuad> emissiveQuads(const Scene& scene) {
     std::vector<EmissiveQuad> quads;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (!instance.visible || instance.material < 0) continue;
+        if (!isPlainEmitter(scene, instance)) continue;
         const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-        const bool emits = material.emission.r + material.emission.g + material.emission.b > 0;
-        if (!emits || material.unlit || material.emissiveTexture.used() ||
-            material.alphaMode == AlphaMode::Mask)
-            continue;
         const std::optional<Parallelogram> quad =
             parallelogramOf(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
         if (!quad) continue;

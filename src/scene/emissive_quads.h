@@ -18,4 +18,7 @@ struct EmissiveQuad {
 };
 std::vector<EmissiveQuad> emissiveQuads(const Scene& scene);
 
+// Whether an instance is seen and emits the same everywhere.
+bool isPlainEmitter(const Scene& scene, const Instance& instance);
+
 }  // namespace conelight::scene

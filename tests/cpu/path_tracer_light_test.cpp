@@ -50,6 +50,22 @@ PathTracerSettings samples(int count, bool quads = true) {
     return settings;
 }
 
+// What counts as direct light of a small bulb changes no picture, only its parts.
+TEST(PathTracerLight, BulbsAreDirectLightWhereAsked) {
+    Scene scene = floorScene();
+    Mesh bulb = sphereMesh(16, 8);
+    for (glm::vec3& p : bulb.positions) p = 0.05f * p + glm::vec3(0, 0.5f, 0);
+    addInstance(scene, bulb, diffuseMaterial(glm::vec3(0), glm::vec3(100)));
+    PathTracerSettings settings = samples(64);
+    const Camera camera = cameraAbove({0.3f, 0, 0}, 0.4f, 0.2f);
+    const PathTracedPicture lamp = PathTracer(scene).render(camera, 8, 8, settings);
+    settings.emissiveSpheres = false;
+    const PathTracedPicture emitter = PathTracer(scene).render(camera, 8, 8, settings);
+    EXPECT_EQ(lamp.full.pixels, emitter.full.pixels);
+    EXPECT_GT(meanOf(lamp.direct), 0.99 * meanOf(lamp.full));
+    EXPECT_EQ(meanOf(emitter.direct), 0);
+}
+
 TEST(PathTracerLight, PointFollowsTheInverseSquare) {
     Scene scene = floorScene();
     scene.lights.push_back(light(LightType::Point, {0.5f, 1.5f, -0.25f}, 3));

@@ -69,7 +69,7 @@ TEST(RoundLights, FluxArrivesOnAllSides) {
         Scene scene;
         scene.lights = {lamp(type, {0.3f, 0.2f, -0.1f}, 0.4f)};
         scene.lights[0].halfV.z = 0.25f;
-        const LightTable table(scene, false, true);
+        const LightTable table(scene, {}, true);
         constexpr int kPoints = 2000;
         constexpr float kRadius = 1.5f;
         double sum = 0;

@@ -58,7 +58,9 @@ class NearLampsTest : public GlTest {
     Flux fluxOf(const Scene& scene) {
         CacheRig rig(programs(), scene, 32);
         Flux flux{arriving(rig), 0};
-        light::lightNearLamps(rig.device, {rig.scene, rig.lights, rig.voxels, rig.directLight}, rig.lit);
+        const light::NearLampInputs inputs{rig.scene, rig.lights, rig.voxels, rig.directLight};
+        light::lightNearLamps(rig.device, inputs, rig.lit);
+        light::lightNearBulbs(rig.device, inputs, rig.lit);
         flux.ofTriangles = arriving(rig);
         return flux;
     }
@@ -82,6 +84,20 @@ TEST_F(NearLampsTest, AHousingGetsAllThatItsLampSends) {
         const glm::vec3 lamp = glm::vec3(0.1f, -0.3f, 0.35f) * float(place + 1);
         const Flux flux = fluxOf(housed(lamp, LightType::Point, {0.7f}));
         EXPECT_NEAR(flux.ofTriangles / sent, 1, 0.01) << place;
+        worst = std::max(worst, std::abs(flux.atMiddles / sent - 1));
+    }
+    EXPECT_GT(worst, 0.1);
+}
+
+// The same of a ball of light of a fifth of a voxel.
+TEST_F(NearLampsTest, AHousingGetsAllThatItsBulbSends) {
+    const double sent = 4 * glm::pi<double>() * glm::pi<double>() * 0.01 * 3;
+    double worst = 0;
+    for (int place = 0; place < 3; ++place) {
+        Scene scene = housed(glm::vec3(0.1f, -0.3f, 0.35f) * float(place + 1), LightType::Sphere, {0.7f});
+        scene.lights[0].halfU = {0.1f, 0, 0};
+        const Flux flux = fluxOf(scene);
+        EXPECT_NEAR(flux.ofTriangles / sent, 1, 0.02) << place;
         worst = std::max(worst, std::abs(flux.atMiddles / sent - 1));
     }
     EXPECT_GT(worst, 0.1);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "scene/emissive_spheres.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "scene/emissive_quads.h"
+
+namespace conelight::scene {
+namespace {
+
+// An icosahedron is the coarsest ball. More triangles than these are no small bulb, and take time at each change.
+constexpr std::size_t kFewestTriangles = 20, kMostTriangles = 8192;
+// Scenes with more emitters than these are not lit by a few bulbs, and are not searched.
+constexpr std::size_t kMostEmitters = 64;
+constexpr float kGridEdge = 128;  // voxels of the default grid along the longest axis
+// How much nearer to the middle than the farthest corner the nearest may be.
+constexpr double kRound = 0.99;
+// Of an icosahedron, the mean height of faces over the radius is 0.79.
+constexpr double kLeastHeight = 0.75;
+// A polyhedron of corners on a sphere has nearly this part of the sphere's area, times that height, unless faces are
+// missing; and never more than the sphere.
+constexpr double kWholeArea = 0.95, kMostArea = 1.001;
+
+struct Ball {
+    glm::vec3 center;
+    float radius;  // of the sphere with the mesh's area
+};
+
+std::vector<glm::dvec3> cornersOf(const Mesh& mesh, const glm::mat4& worldFromObject, glm::dvec3& center) {
+    std::vector<glm::dvec3> corners;
+    corners.reserve(mesh.indices.size());
+    Aabb box;
+    for (const std::uint32_t i : mesh.indices) {
+        const auto p = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1));
+        box.grow(p);
+        corners.emplace_back(p);
+    }
+    center = glm::dvec3(box.center());
+    for (glm::dvec3& corner : corners) corner -= center;
+    return corners;
+}
+
+// The ball that a closed mesh is in the world, or nothing.
+std::optional<Ball> ballOf(const Mesh& mesh, const glm::mat4& worldFromObject) {
+    glm::dvec3 center;
+    const std::vector<glm::dvec3> corners = cornersOf(mesh, worldFromObject, center);
+    double nearest = INFINITY, farthest = 0, area = 0, volume = 0;
+    for (const glm::dvec3& corner : corners) {
+        const double radius = glm::length(corner);
+        nearest = std::min(nearest, radius);
+        farthest = std::max(farthest, radius);
+    }
+    if (!(farthest > 0 && nearest > kRound * farthest)) return std::nullopt;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const glm::dvec3 &a = corners[i], &b = corners[i + 1], &c = corners[i + 2];
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+        volume += glm::dot(a, glm::cross(b, c)) / 6;
+    }
+    // Below 0 where it shines inwards.
+    if (glm::determinant(glm::mat3(worldFromObject)) < 0) volume = -volume;
+    const double sphereArea = 4 * std::numbers::pi * farthest * farthest;
+    const double height = 3 * volume / (farthest * area);
+    const bool whole = height > kLeastHeight && area > kWholeArea * height * sphereArea;
+    if (!whole || area > kMostArea * sphereArea) return std::nullopt;
+    return Ball{glm::vec3(center), static_cast<float>(std::sqrt(area / (4 * std::numbers::pi)))};
+}
+
+bool mayBeBall(const Scene& scene, const Instance& instance) {
+    if (!isPlainEmitter(scene, instance) || !instance.voxelized || instance.mesh < 0) return false;
+    const std::size_t triangles = scene.meshes[static_cast<std::size_t>(instance.mesh)].triangleCount();
+    return triangles >= kFewestTriangles && triangles <= kMostTriangles;
+}
+
+Light sphereLight(const Ball& ball, const Scene& scene, const Instance& instance) {
+    Light light;
+    light.name = instance.name;
+    light.type = LightType::Sphere;
+    light.intensity = scene.materials[static_cast<std::size_t>(instance.material)].emission;
+    light.position = ball.center;
+    light.halfU = {ball.radius, 0, 0};
+    return light;
+}
+
+}  // namespace
+
+std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene) {
+    std::vector<std::size_t> emitters;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (mayBeBall(scene, scene.instances[i])) emitters.push_back(i);
+    std::vector<EmissiveSphere> spheres;
+    if (emitters.empty() || emitters.size() > kMostEmitters) return spheres;
+    const glm::vec3 extent = scene.bounds().extent();
+    const float largest = std::max({extent.x, extent.y, extent.z}) / kGridEdge;
+    for (const std::size_t i : emitters) {
+        const Instance& instance = scene.instances[i];
+        const std::optional<Ball> ball =
+            ballOf(scene.meshes[static_cast<std::size_t>(instance.mesh)], instance.worldFromObject);
+        if (ball && ball->radius < largest) spheres.push_back({i, sphereLight(*ball, scene, instance)});
+    }
+    if (spheres.size() > kMostEmissiveSpheres) spheres.clear();
+    return spheres;
+}
+
+}  // namespace conelight::scene
