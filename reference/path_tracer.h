@@ -56,9 +56,9 @@ struct FeaturePictures {
 };
 
 // Parts as in Component. direct: emission seen, the sky behind everything, and light that comes straight from
-// lights (flat emissive quads and small emissive spheres included, as in the GL modes). indirect = full - direct: everything else, light
-// of the sky and of other emitters included; split by the lobe of the first surface that reflected it:
-// diffuse + specular = indirect.
+// lights (flat emissive quads and small emissive spheres included, as in the GL modes). indirect = full - direct:
+// everything else, light of the sky and of other emitters included; split by the lobe of the first surface that
+// reflected it: diffuse + specular = indirect.
 struct PathTracedPicture {
     Image full, direct, indirect, diffuse, specular;
     Image halfA, halfB;          // of full, from independent samples; full is their mean
