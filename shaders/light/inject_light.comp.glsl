@@ -32,8 +32,8 @@ layout(std430) writeonly buffer CachedDirect { uint cachedDirect[]; };
 uniform usamplerBuffer emissionParts;
 #endif
 
-// Whether a face holds a part of something of the scene that shines as an area light. Of a sphere: its bounds reach into
-// it. Of a rectangle: it looks the same way and lies in its plane, too. A voxel on the rectangle's edge has
+// Whether a face holds a part of something of the scene that shines as an area light. Of a sphere: its voxel may meet it.
+// Of a rectangle: it looks the same way, lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has
 // emission of it, too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is
 // ample.
 bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
@@ -52,7 +52,7 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
                       abs(dot(d, v)) < length(light.halfV) + dot(abs(v), reach);
             if (isSphere(light))
                 on = (light.flags & LIGHT_FROM_EMITTER) != 0u &&
-                     length(max(abs(d) - reach, 0.0)) < length(light.halfU);
+                     length(max(abs(d) - voxelSize, 0.0)) < length(light.halfU);
             found = found || on;
         } while (++i < lighting.lightEnds.w);
 #endif

@@ -2,13 +2,16 @@
 // Which small bulbs become lights, and what the tables hold then.
 #include "scene/emissive_spheres.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
+#include "io/generated.h"
 #include "light/lights.h"
 #include "light/shadow_layout.h"
+#include "support/cache_rig.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -110,6 +113,27 @@ TEST_F(EmissiveSphereTableTest, TablesFollowTheSwitch) {
     lights.update(device(), gpuScene, {.emissiveSpheres = false});
     EXPECT_TRUE(lights.table().empty());
     EXPECT_FALSE(lights.areInTable(1));
+}
+
+// Wires of a cage and the bulb share voxels, whose faces hold light of both. None of the bulb's is left there: it would
+// come twice.
+TEST_F(EmissiveSphereTableTest, VoxelsLeaveItsLightOut) {
+    Scene scene = io::generateScene("cellar");
+    scene.sky = glm::vec3(0);
+    scene.lights.clear();
+    for (Material& material : scene.materials) {
+        material.baseColor = {0, 0, 0, 1};
+        material.metallic = material.specular = 0;
+    }
+    for (const bool spheres : {false, true}) {
+        CacheRig rig(programs(), scene, 128);
+        rig.light.emissiveSpheres = spheres;
+        rig.relight();
+        const auto faces = rig.faces();
+        const auto shining = std::count_if(faces.begin(), faces.end(),
+                                           [](const CachedFace& face) { return face.radiance.r > 0; });
+        EXPECT_EQ(shining > 0, !spheres) << shining;
+    }
 }
 
 // The points that maps are drawn from lie within the ball: it alone casts no shadow into them.
