@@ -228,7 +228,8 @@ float roundLobe(Light light, vec3 p, RectLobe lobe) {
 #endif
 
 #if LIGHTS_SHAPED
-// A sphere is one direction to rays where its radius over its distance, squared, is so small a part of the lobe's width.
+// A sphere is one direction to rays where its radius over its distance, squared, is so small a part of the lobe's width,
+// squared: tests/shader/rect_light_test.cpp holds the mean of what it reflects.
 const float kSmallSphere = 0.1;
 
 bool isSmallSphere(Light light, vec3 c, RectLobe lobe) {

@@ -166,41 +166,23 @@ vec3 nearIrradiance(Cell cell, uint chain, vec3 direction, float area) {
     return sum / max(area, kLeastArea);
 }
 
-#if BULBS
-// Of all these, at the middle of a face.
+// At the middle of a face: of all other lamps; with BULBS of these, which the face has already.
 vec3 middleIrradiance(Cell cell, FaceRecord face) {
     vec3 normal = faceNormal(face);
     Receiver receiver = Receiver(worldFromGrid(faceCenter(face)), normal, normal, normal, kShadowVoxelLift);
     Brdf none;
     DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
     uvec2 range = lampRange();
-    for (uint i = range.x; i < range.y; ++i)
+    for (uint i = range.x; i < range.y; ++i) {
+#if BULBS
         if (isNear(cell, lights[i])) addRect(sum, false, receiver, none, lights[i]);
-    return sum.irradiance;
-}
-
-// What the lamps give to a face, in place of their light at its middle.
-void lightFace(Cell cell, uint chain, int direction, uint face) {
-    float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
-    vec3 more =
-        nearIrradiance(cell, chain, directionVector(direction), area) - middleIrradiance(cell, faces[face]);
-    more *= unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
-    litFaces[face].radiance = packRgb9e5(max(unpackRgb9e5(litFaces[face].radiance) + more, vec3(0.0)));
-    cachedDirect[face] = packRgb9e5(max(unpackRgb9e5(cachedDirect[face]) + more, vec3(0.0)));
-}
 #else
-// Of all others, at the middle of a face.
-vec3 farIrradiance(Cell cell, FaceRecord face) {
-    vec3 normal = faceNormal(face);
-    Receiver receiver = Receiver(worldFromGrid(faceCenter(face)), normal, normal, normal, kShadowVoxelLift);
-    Brdf none;
-    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
-    for (uint i = 0u; i < lighting.lightEnds.y; ++i) {
         if (isNear(cell, lights[i])) continue;
         if (i < lighting.lightEnds.x)
             addPoint(sum, false, receiver, none, lights[i], i);
         else
             addSpot(sum, false, receiver, none, lights[i], i);
+#endif
     }
     FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, false, receiver, none, light, number))
     return sum.irradiance;
@@ -208,12 +190,18 @@ vec3 farIrradiance(Cell cell, FaceRecord face) {
 
 void lightFace(Cell cell, uint chain, int direction, uint face) {
     float area = unpackArea(texelFetch(voxelFaceMaterials, int(face)));
-    vec3 irradiance =
-        nearIrradiance(cell, chain, directionVector(direction), area) + farIrradiance(cell, faces[face]);
+    vec3 near = nearIrradiance(cell, chain, directionVector(direction), area);
+    vec3 middle = middleIrradiance(cell, faces[face]);
     vec3 reflectance = unpackAlbedo(litFaces[face].albedo) * (1.0 / 3.14159265358979);
-    litFaces[face].radiance = packRgb9e5(unpackRgb9e5(cachedDirect[face]) + reflectance * irradiance);
-}
+    vec3 steady = unpackRgb9e5(cachedDirect[face]);
+#if BULBS
+    vec3 more = reflectance * (near - middle);
+    litFaces[face].radiance = packRgb9e5(max(unpackRgb9e5(litFaces[face].radiance) + more, vec3(0.0)));
+    cachedDirect[face] = packRgb9e5(max(steady + more, vec3(0.0)));
+#else
+    litFaces[face].radiance = packRgb9e5(steady + reflectance * (near + middle));
 #endif
+}
 
 void main() {
     // The voxel, of the block around a lamp

@@ -45,7 +45,7 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
                           scene.skyRevision(), wanted};
     if (revision_ && from_ == sources) co_return;
     revision_ = {};
-    fillTable(scene.source(), wanted);
+    fillTable(scene, wanted);
     const bool veils =
         wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
     LampTree tree;
@@ -113,14 +113,15 @@ void Lights::addEmitter(const Light& light, std::size_t instance) {
     emitters_[instance] = 1;
 }
 
-void Lights::fillTable(const Scene& scene, const LightsWanted& wanted) {
+void Lights::fillTable(const scene::GpuScene& gpuScene, const LightsWanted& wanted) {
+    const Scene& scene = gpuScene.source();
     table_ = scene::packedLights(scene.lights);
     emitters_.assign(scene.instances.size(), 0);
     if (wanted.emissiveQuads)
         for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene))
             addEmitter(quad.light, quad.instance);
     if (wanted.emissiveSpheres)
-        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene))
+        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene, gpuScene.firstBounds()))
             addEmitter(sphere.light, sphere.instance);
     ends_ = scene::lightEnds(table_);
     shaped_ = std::any_of(table_.begin(), table_.end(),

@@ -85,7 +85,7 @@ class Lights {
     std::size_t shadowBytes() const { return shadows_.bytes(); }  // of the shadow maps
 
   private:
-    void fillTable(const Scene& scene, const LightsWanted& wanted);
+    void fillTable(const scene::GpuScene& scene, const LightsWanted& wanted);
     void addEmitter(const Light& light, std::size_t instance);
     bool wantsTree(const scene::GpuScene& scene, const LightsWanted& wanted) const;
     base::Steps drawShadows(const gl::Device& device, const scene::GpuScene& scene, LightSettings settings,

@@ -25,29 +25,37 @@ constexpr double kLeastHeight = 0.75;
 // missing; and never more than the sphere.
 constexpr double kWholeArea = 0.95, kMostArea = 1.001;
 
+// Bounds of a ball over the radius of the sphere of its area: an icosahedron has 2.3 at most.
+constexpr float kWidest = 2.4f;
+
 struct Ball {
     glm::vec3 center;
     float radius;  // of the sphere with the mesh's area
 };
 
-std::vector<glm::dvec3> cornersOf(const Mesh& mesh, const glm::mat4& worldFromObject, glm::dvec3& center) {
+// Corners from the middle of their bounds, of a mesh whose bounds are those of a ball of less than this radius; else none.
+std::vector<glm::dvec3> cornersOf(const Mesh& mesh, const glm::mat4& worldFromObject, float largest,
+                                  glm::dvec3& center) {
     std::vector<glm::dvec3> corners;
-    corners.reserve(mesh.indices.size());
+    const auto inWorld = [&](std::uint32_t i) {
+        return glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1));
+    };
     Aabb box;
     for (const std::uint32_t i : mesh.indices) {
-        const auto p = glm::vec3(worldFromObject * glm::vec4(mesh.positions[i], 1));
-        box.grow(p);
-        corners.emplace_back(p);
+        box.grow(inWorld(i));
+        const glm::vec3 extent = box.extent();
+        if (std::max({extent.x, extent.y, extent.z}) > kWidest * largest) return corners;
     }
     center = glm::dvec3(box.center());
-    for (glm::dvec3& corner : corners) corner -= center;
+    corners.reserve(mesh.indices.size());
+    for (const std::uint32_t i : mesh.indices) corners.emplace_back(glm::dvec3(inWorld(i)) - center);
     return corners;
 }
 
 // The ball that a closed mesh is in the world, or nothing.
-std::optional<Ball> ballOf(const Mesh& mesh, const glm::mat4& worldFromObject) {
+std::optional<Ball> ballOf(const Mesh& mesh, const glm::mat4& worldFromObject, float largest) {
     glm::dvec3 center;
-    const std::vector<glm::dvec3> corners = cornersOf(mesh, worldFromObject, center);
+    const std::vector<glm::dvec3> corners = cornersOf(mesh, worldFromObject, largest, center);
     double nearest = INFINITY, farthest = 0, area = 0, volume = 0;
     for (const glm::dvec3& corner : corners) {
         const double radius = glm::length(corner);
@@ -87,22 +95,32 @@ Light sphereLight(const Ball& ball, const Scene& scene, const Instance& instance
 
 }  // namespace
 
-std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene) {
+std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene, const Aabb& bounds) {
     std::vector<std::size_t> emitters;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (mayBeBall(scene, scene.instances[i])) emitters.push_back(i);
     std::vector<EmissiveSphere> spheres;
-    if (emitters.empty() || emitters.size() > kMostEmitters) return spheres;
-    const glm::vec3 extent = scene.bounds().extent();
+    if (bounds.empty() || emitters.size() > kMostEmitters) return spheres;
+    const glm::vec3 extent = bounds.extent();
     const float largest = std::max({extent.x, extent.y, extent.z}) / kGridEdge;
     for (const std::size_t i : emitters) {
         const Instance& instance = scene.instances[i];
-        const std::optional<Ball> ball =
-            ballOf(scene.meshes[static_cast<std::size_t>(instance.mesh)], instance.worldFromObject);
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const std::optional<Ball> ball = ballOf(mesh, instance.worldFromObject, largest);
         if (ball && ball->radius < largest) spheres.push_back({i, sphereLight(*ball, scene, instance)});
     }
     if (spheres.size() > kMostEmissiveSpheres) spheres.clear();
     return spheres;
+}
+
+std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene) {
+    std::vector<Aabb> boxes;
+    for (const Mesh& mesh : scene.meshes) boxes.push_back(mesh.bounds());
+    Aabb bounds;
+    for (const Instance& instance : scene.instances)
+        if (instance.visible && instance.mesh >= 0)
+            bounds.grow(boxes[static_cast<std::size_t>(instance.mesh)].transformed(instance.worldFromObject));
+    return emissiveSpheres(scene, bounds);
 }
 
 }  // namespace conelight::scene

@@ -19,6 +19,9 @@ struct EmissiveSphere {
     std::size_t instance;
     Light light;
 };
+// `bounds` tell the size of a voxel: of the boxes of visible instances, of the scene as it is or as it first was
+// (GpuScene::firstBounds), which does not change when something moves. Without them they are made here.
+std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene, const Aabb& bounds);
 std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene);
 
 }  // namespace conelight::scene

@@ -53,7 +53,7 @@ TEST_F(BulbsTest, ACagedBulbLightsTheCeiling) {
     EXPECT_GT(voxels, 2 * light);
 }
 
-// What is seen of it is the same as without: in the picture, and on a sheet of polished metal.
+// The bulb itself is seen with its own radiance.
 TEST_F(BulbsTest, ABulbIsSeenAsItIs) {
     const Scene scene = cagedBulb();
     const auto brightest = [](const Image& image) {
