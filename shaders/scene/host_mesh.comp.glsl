@@ -82,7 +82,7 @@ uint tangentOf(uint vertex) {
     if (mesh.tangents.w == 0u) return mesh.noTangent;
     vec4 t = tangentAt(mesh.tangents, vertex);
     uint word = packSnorm2x16(octEncode(unitOr(t.xyz, vec3(1.0, 0.0, 0.0))));
-    return (word & ~1u) | (t.w < 0.0 ? 1u : 0u);
+    return (word & ~(VERTEX_SOLID_BITS | 1u)) | (t.w < 0.0 ? 1u : 0u);
 }
 
 void put(uint at, uint vertex, vec3 position, vec3 normal) {

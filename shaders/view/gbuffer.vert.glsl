@@ -54,7 +54,7 @@ void main() {
 #endif
 #if TEXTURES >= 2
     // Tangents follow the surface (not its normals); the lowest bit holds the sign of the bitangent.
-    vec3 t = octDecode(unpackSnorm2x16(tangentOct & ~1u));
+    vec3 t = octDecode(unpackSnorm2x16(tangentOct & ~(VERTEX_SOLID_BITS | 1u)));
     float handedness = (tangentOct & 1u) != 0u ? -1.0 : 1.0;
     if ((instances[instanceIndex].flags & INSTANCE_FLIPPED) != 0u) handedness = -handedness;
     outTangent = vec4(mat3(worldFromObject) * t, handedness);

@@ -91,11 +91,24 @@ GridTriangle inLevel(GridTriangle t, int level) {
 }
 #endif
 
+// VOXEL_TRIANGLE_SOLID_SHIFT: of the solid that the vertex belongs to. Scaled, it has other volumes and areas.
+uint solidBits(uint vertex, uint instance) {
+    uint code = ((vertices[vertex].tangentOct >> 1) & 3u) | ((vertices[vertex].tangentOct >> 14) & 28u);
+    float volumes = abs(determinant(mat3(instances[instance].worldFromObject)));
+    float areas = length(instances[instance].normalColumn0.xyz) +
+                  length(instances[instance].normalColumn1.xyz) +
+                  length(instances[instance].normalColumn2.xyz);
+    float scale = 3.0 * volumes / max(areas, 1e-30) * grid.inverseVoxelSize;
+    float steps = 2.0 * (float(code) - float(VERTEX_SOLID_BIAS) + log2(max(scale, 1e-30))) + 16.5;
+    return code != 0u && steps < 32.0 ? uint(max(steps, 1.0)) << VOXEL_TRIANGLE_SOLID_SHIFT : 0u;
+}
+
 // Keeps corners, flags and the material without its textures for the later passes.
 void writeTriangle(GridTriangle t) {
     uint material = instances[t.instance].material;
     uint materialFlags = materials[material].flags;
-    uint bits = t.instance | ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
+    uint bits = t.instance | solidBits(cornersOfTriangle(t.triangle, t.instance).x, t.instance) |
+                ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
                 (t.used ? 0u : TRIANGLE_UNUSED);
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
     vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,

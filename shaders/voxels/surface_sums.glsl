@@ -163,7 +163,8 @@ void shrinkEnds(float by, inout vec3 lower, inout vec3 upper) {
 struct FacePlane {
     vec3 normal, center, lower, upper;  // of what the face holds, from the voxel's centre
     float offset;
-    float held;  // area of what the face holds, seen along that axis
+    float held;      // area of what the face holds, seen along that axis
+    float flatness;  // length of the mean of its unit normals
     int axis;
 };
 
@@ -174,7 +175,8 @@ FacePlane facePlane(FaceSums sums, int shift, vec3 k, uvec4 hit) {
     return FacePlane(m, toDominant(vec3(sums.center) / float(max(sums.weightLow, 1)) - 0.5, axis),
                      toDominant(vec3(sums.lower) * kBoundsStep - 0.5, axis),
                      toDominant(vec3(sums.upper) * kBoundsStep - 0.5, axis), unpackOffset(hit.y),
-                     float(sums.weightLow) * inverseUnits(shift) * abs(m.z) / max(dot(n, k), 1e-3), axis);
+                     float(sums.weightLow) * inverseUnits(shift) * abs(m.z) / max(dot(n, k), 1e-3),
+                     length(vec3(sums.normal) * (2.0 / float(max(sums.weightLow, 1))) - 1.0), axis);
 }
 
 // Whether the bounds hold more of the plane than rounding explains.
@@ -182,7 +184,7 @@ bool boundsTooWide(FacePlane plane) {
     vec3 a = plane.lower;
     vec3 b = plane.upper;
     shrinkEnds(kBoundsStep, a, b);
-    return plane.held < kFitted * pieceArea(plane.normal, plane.offset, a, b);
+    return plane.held * plane.flatness < kFitted * pieceArea(plane.normal, plane.offset, a, b);
 }
 
 // What else the voxel of a face holds.
@@ -190,11 +192,12 @@ struct ChainSums {
     int front, behind;  // moments about the face's plane of what is turned away from it
     int hiding;         // area of what of that is in front
     float seen;         // part of what the face holds that is not the inside of a closed solid
+    bool closed;
 };
 
 // `at`: head of the voxel's chain; n, center: of the face's plane. Sums are of integers, as the chain has no order.
 ChainSums besideFace(uint at, vec3 k, vec3 n, vec3 center) {
-    ChainSums beside = ChainSums(0, 0, 0, 1.0);
+    ChainSums beside = ChainSums(0, 0, 0, 1.0, false);
     int all = 0, inside = 0, outside = 0;
     ivec3 outwards = ivec3(0);
     do {
@@ -213,8 +216,8 @@ ChainSums besideFace(uint at, vec3 k, vec3 n, vec3 center) {
         all += area;
         at = f.next;
     } while (at != 0u);
-    bool closed = length(vec3(outwards)) < kClosed * float(all);
-    beside.seen = closed ? float(max(inside, outside)) / float(max(inside + outside, 1)) : 1.0;
+    beside.closed = length(vec3(outwards)) < kClosed * float(all);
+    beside.seen = beside.closed ? float(max(inside, outside)) / float(max(inside + outside, 1)) : 1.0;
     return beside;
 }
 
@@ -230,7 +233,7 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
     vec3 high = plane.upper;
     float offset = plane.offset;
     ChainSums beside = besideFace(at, k, fromDominant(m, axis), fromDominant(c, axis));
-    float held = plane.held * beside.seen;
+    float held = plane.held * beside.seen * (beside.closed ? plane.flatness : 1.0);
     float tooMuch = pieceArea(m, offset, low, high) - held;
     bool corner = float(beside.front) > kFrontShare * float(beside.behind) &&
                   kMostHidden * float(beside.hiding) >= kFrontUnits * tooMuch;

@@ -92,7 +92,7 @@ bool appendVertices(const Mesh& mesh, std::vector<gpu::Vertex>& vertices) {
         const glm::vec4 tangent = mesh.tangents.empty() ? glm::vec4(1, 0, 0, 1) : mesh.tangents[source];
         const std::uint32_t packed =
             math::packSnorm2x16(math::octEncode(unitOr(glm::vec3(tangent), {1, 0, 0})));
-        vertex.tangentOct = (packed & ~1u) | (tangent.w < 0 ? 1u : 0u);
+        vertex.tangentOct = (packed & ~(VERTEX_SOLID_BITS | 1u)) | (tangent.w < 0 ? 1u : 0u);
         const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1) : mesh.colors[source];
         vertex.color = wide ? packRgb9e5(color) : packUnorm8(color);
         vertices.push_back(vertex);

@@ -74,7 +74,7 @@ gpu::HostMeshConstants packedConstants(const HostMesh& mesh) {
     c.uvs = packedAttribute(mesh.uvs);
     c.tangents = packedAttribute(mesh.tangents);
     c.colors = packedAttribute(mesh.colors);
-    c.noTangent = math::packSnorm2x16(math::octEncode({1, 0, 0})) & ~1u;
+    c.noTangent = math::packSnorm2x16(math::octEncode({1, 0, 0})) & ~(VERTEX_SOLID_BITS | 1u);
     return c;
 }
 
