@@ -64,9 +64,20 @@ class ViewerTest : public ::testing::Test {
         screen->xdotool("mouseup 1");
         pass();
     }
+    // Where the widget is once it is there and stays: a window that opens finds its size and place over some frames.
+    glm::ivec4 restingPlace(const std::string& widget) {
+        glm::ivec4 place(0);
+        (void)eventually([&] {
+            const glm::ivec4 before = viewer->placeOf(widget);
+            pass();
+            place = viewer->placeOf(widget);
+            return place.z > 0 && place == before;
+        });
+        return place;
+    }
     void click(const std::string& widget) {
-        const glm::ivec4 place = viewer->placeOf(widget);
-        ASSERT_GT(place.z, 0) << viewer->output();
+        const glm::ivec4 place = restingPlace(widget);
+        ASSERT_GT(place.z, 0) << widget << ": " << viewer->output();
         click(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2);
     }
     // Until nothing changes in the box (x y width height) any more, looked at so many times after `looks` said so.
