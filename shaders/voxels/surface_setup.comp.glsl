@@ -107,7 +107,10 @@ uint solidBits(uint vertex, uint instance) {
 void writeTriangle(GridTriangle t) {
     uint material = instances[t.instance].material;
     uint materialFlags = materials[material].flags;
-    uint bits = t.instance | solidBits(cornersOfTriangle(t.triangle, t.instance).x, t.instance) |
+    // Through holes one sees the inside.
+    bool whole = (materialFlags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) == 0u;
+    uint solid = whole ? solidBits(cornersOfTriangle(t.triangle, t.instance).x, t.instance) : 0u;
+    uint bits = t.instance | solid |
                 ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
                 (t.used ? 0u : TRIANGLE_UNUSED);
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;

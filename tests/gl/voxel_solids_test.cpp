@@ -85,6 +85,13 @@ TEST_F(VoxelSolidsTest, OpenOnesHaveAnInside) {
     EXPECT_GT(open.faces.size(), closed.faces.size());
 }
 
+// Through its holes one sees the inside.
+TEST_F(VoxelSolidsTest, MaskedOnesHaveAnInside) {
+    Scene masked = boxOf(1, true);
+    masked.materials[0].alphaMode = AlphaMode::Mask;
+    EXPECT_GT(voxelized(masked).faces.size(), voxelized(boxOf(1, true)).faces.size());
+}
+
 // An instance that is scaled has another thickness, also where it is scaled along one axis.
 TEST_F(VoxelSolidsTest, ScalesCount) {
     const auto faces = [&](bool twoSided, const glm::vec3& scale) {
