@@ -4,11 +4,13 @@
 #include "shared/prelude.h"
 CONELIGHT_SHARED_BEGIN
 
-// 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of
-// its uint. The next two bits, and the three lowest of its upper half, say how thick the closed solid is that the
-// vertex belongs to: at most 2^(code - VERTEX_SOLID_BIAS), in the mesh's units; 0: none (scene/closed_solids.h).
+// In Vertex::tangentOct: how thick the closed solid is that the vertex belongs to (scene/closed_solids.h), at most
+// 2^(code - VERTEX_SOLID_BIAS) in the mesh's units, 0: none. The code's two lowest bits lie in the lower half.
 #define VERTEX_SOLID_BITS 0x00070006u
 #define VERTEX_SOLID_BIAS 20
+
+// 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of
+// its uint, VERTEX_SOLID_BITS above it and in the upper half.
 struct Vertex {
     vec3 position;
     uint normalOct;

@@ -91,7 +91,8 @@ GridTriangle inLevel(GridTriangle t, int level) {
 }
 #endif
 
-// VOXEL_TRIANGLE_SOLID_SHIFT: of the solid that the vertex belongs to. Scaled, it has other volumes and areas.
+// For VOXEL_TRIANGLE_SOLID_SHIFT, of the solid that the vertex belongs to. Scaled, it has another volume and another area,
+// by the mean of what sides along the axes have.
 uint solidBits(uint vertex, uint instance) {
     uint code = ((vertices[vertex].tangentOct >> 1) & 3u) | ((vertices[vertex].tangentOct >> 14) & 28u);
     float volumes = abs(determinant(mat3(instances[instance].worldFromObject)));

@@ -12,8 +12,8 @@
 namespace conelight::scene {
 namespace {
 
-// How far apart positions may be that are one: a millionth of the bounds, or the rounding of what lies far from the origin.
-constexpr double kApartInBounds = 0x1p-20, kApartInDistance = 0x1p-21;
+// How far apart positions may be that are one, over the largest coordinate: rounding, of angles too.
+constexpr double kApart = 0x1p-21;
 constexpr double kFlat = -1e-6;  // least volume over area^1.5 of what counts as looking outwards: rounding
 constexpr std::uint32_t kNobody = 0xffffffffu;
 
@@ -79,9 +79,8 @@ void joinNear(const std::vector<glm::vec3>& positions, JoinedSets& points) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    const glm::dvec3 size = high - low, farthest = glm::max(glm::abs(low), glm::abs(high));
-    const double apart = std::max({kApartInBounds * std::max({size.x, size.y, size.z}),
-                                   kApartInDistance * std::max({farthest.x, farthest.y, farthest.z}), 1e-30});
+    const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+    const double apart = std::max(kApart * std::max({farthest.x, farthest.y, farthest.z}), 1e-30);
     CellTable table(positions.size());
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         const glm::dvec3 at = (glm::dvec3(positions[i]) - glm::dvec3(low)) / (kPerCell * apart);
@@ -123,7 +122,7 @@ std::uint64_t signedNumber(std::uint32_t a, std::uint32_t b) {
 
 float thickness(const Part& part) {
     const bool closed = part.edges == 0 && part.area > 0 && part.volume >= kFlat * std::pow(part.area, 1.5);
-    return closed ? float(4 * std::max(part.volume, 0.0) / part.area) : -1.0f;
+    return closed ? static_cast<float>(4 * std::max(part.volume, 0.0) / part.area) : -1.0f;
 }
 
 }  // namespace
@@ -142,13 +141,15 @@ std::vector<float> solidThickness(const std::vector<glm::vec3>& positions,
             members.join(points.of(indices[i]), points.of(indices[i + k]));
 
     std::vector<Part> parts(positions.size());
-    const glm::dvec3 origin(positions[indices[0]]);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const std::array<std::uint32_t, 3> at = {points.of(indices[i]), points.of(indices[i + 1]),
                                                  points.of(indices[i + 2])};
+        const std::uint32_t member = members.of(at[0]);
+        Part& part = parts[member];
+        // From a place of its own: volumes of what is small and far away would drown in rounding.
+        const glm::dvec3 origin(positions[member]);
         const glm::dvec3 a = glm::dvec3(positions[at[0]]) - origin, b = glm::dvec3(positions[at[1]]) - origin,
                          c = glm::dvec3(positions[at[2]]) - origin;
-        Part& part = parts[members.of(at[0])];
         part.volume += glm::dot(a, glm::cross(b, c)) / 6;
         part.area += glm::length(glm::cross(b - a, c - a)) / 2;
         for (std::size_t k = 0; k < 3; ++k) part.edges += signedNumber(at[k], at[(k + 1) % 3]);
@@ -162,7 +163,7 @@ std::vector<float> solidThickness(const std::vector<glm::vec3>& positions,
 std::uint32_t solidBits(float thickness) {
     if (thickness < 0) return 0;
     const float steps = std::ceil(std::log2(std::max(thickness, 1e-30f))) + VERTEX_SOLID_BIAS;
-    const std::uint32_t code = std::uint32_t(std::clamp(steps, 1.0f, 32.0f));
+    const auto code = static_cast<std::uint32_t>(std::clamp(steps, 1.0f, 32.0f));
     return code > 31 ? 0 : (code & 3u) << 1 | (code >> 2) << 16;
 }
 

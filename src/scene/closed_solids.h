@@ -12,7 +12,7 @@ namespace conelight::scene {
 // For each position the thickness of the connected part whose triangles (three indices each) name it, in the units of
 // the positions: four times its volume over its area. That is the diameter of a long rod, and twice the thickness of a
 // board. Negative: the part is open, or its triangles look inwards, or no triangle names it. Positions are one where
-// they differ by less than about a millionth of the bounds, or by rounding: vertices are split along seams. A part is closed where
+// they differ by less than half a millionth of the largest coordinate: vertices are split along seams. A part is closed where
 // each of its edges is walked as often one way as the other.
 std::vector<float> solidThickness(const std::vector<glm::vec3>& positions,
                                   const std::vector<std::uint32_t>& indices);

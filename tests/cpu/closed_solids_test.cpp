@@ -98,6 +98,18 @@ TEST(ClosedSolids, EachPartHasItsOwn) {
     EXPECT_NEAR(thickness[second], 0.2f / 3, 1e-5f);
 }
 
+// A bolt, a kilometre from the rest of its mesh.
+TEST(ClosedSolids, SmallPartsMayBeFarAway) {
+    Mesh all = boxOf(glm::vec3(0), glm::vec3(0.5f));
+    const std::size_t first = all.positions.size();
+    append(all, boxOf(glm::vec3(0), glm::vec3(0x1p-7f)), {1024, 512, -768});
+    const std::size_t second = all.positions.size();
+    append(all, boxOf(glm::vec3(0), glm::vec3(0x1p-7f)), {-512, 768, 1024});
+    const std::vector<float> thickness = thicknessOf(all);
+    EXPECT_NEAR(thickness[first], 0x1p-7f * 2 / 3, 1e-4f);
+    EXPECT_NEAR(thickness[second], 0x1p-7f * 2 / 3, 1e-4f);
+}
+
 // Both sides of a seam are worked out apart, and are off by rounding.
 TEST(ClosedSolids, SeamsMayBeOffByRounding) {
     for (int place = 0; place < 200; ++place) {
