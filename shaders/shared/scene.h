@@ -8,6 +8,8 @@ CONELIGHT_SHARED_BEGIN
 // 2^(code - VERTEX_SOLID_BIAS) in the mesh's units, 0: none. The code's two lowest bits lie in the lower half.
 #define VERTEX_SOLID_BITS 0x00070006u
 #define VERTEX_SOLID_BIAS 20
+#define VERTEX_SOLID_WORD(code) ((((code)&3u) << 1) | (((code) >> 2) << 16))
+#define VERTEX_SOLID_CODE(word) ((((word) >> 1) & 3u) | (((word) >> 14) & 28u))
 
 // 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of
 // its uint, VERTEX_SOLID_BITS above it and in the upper half.

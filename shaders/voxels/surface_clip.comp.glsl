@@ -84,24 +84,22 @@ uint slotOf(uint index, out bool used) {
 #endif
 }
 
-// Closed solids thicker than this have insides that may be looked at: rooms.
-const float kThickSolid = 2.0;
+// Closed solids thicker than this have insides that may be looked at: rooms. As triangles have it: 2 voxels.
+const int kThickSolid = 18;
 
-// `scale`: voxels here in a voxel of the finest grid.
-bool isThinSolid(uint flags, float scale) {
-    uint code = flags >> VOXEL_TRIANGLE_SOLID_SHIFT;
-    return code != 0u && exp2(0.5 * float(int(code) - 16)) * scale <= kThickSolid;
+bool isThinSolid(uint flags, int level) {
+    int code = int(flags >> VOXEL_TRIANGLE_SOLID_SHIFT);
+    return code != 0 && code - 2 * level <= kThickSolid;
 }
 
 VoxelTriangle readTriangle(uint triangle, ivec3 voxel) {
     vec4 t0 = texelFetch(triangles, 3 * int(triangle));
     vec4 t1 = texelFetch(triangles, 3 * int(triangle) + 1);
     vec4 t2 = texelFetch(triangles, 3 * int(triangle) + 2);
-    float perVoxel = 1.0;
+    int level = 0;
 #if NESTED_GRIDS
-    int level = levelOfStored(voxel);
+    level = levelOfStored(voxel);
     vec4 place = levelPlace(level);
-    perVoxel = 1.0 / place.w;
     t0.xyz = levelFromGrid(t0.xyz, place);
     t1.xyz = levelFromGrid(t1.xyz, place);
     t2.xyz = levelFromGrid(t2.xyz, place);
@@ -111,7 +109,7 @@ VoxelTriangle readTriangle(uint triangle, ivec3 voxel) {
     vec3 cr = cross(t1.xyz - t0.xyz, t2.xyz - t0.xyz);
     float twiceArea = length(cr);
     uint flags = floatBitsToUint(t0.w);
-    bool twoSided = (flags & TRIANGLE_TWO_SIDED) != 0u && !isThinSolid(flags, perVoxel);
+    bool twoSided = (flags & TRIANGLE_TWO_SIDED) != 0u && !isThinSolid(flags, level);
     return VoxelTriangle(triangle, flags & 0xffffffu, t0.xyz - center, t1.xyz - center, t2.xyz - center,
                          cr / twiceArea, twiceArea, twoSided, floatBitsToUint(t1.w), floatBitsToUint(t2.w));
 }

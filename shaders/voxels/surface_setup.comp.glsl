@@ -94,7 +94,7 @@ GridTriangle inLevel(GridTriangle t, int level) {
 // For VOXEL_TRIANGLE_SOLID_SHIFT, of the solid that the vertex belongs to. Scaled, it has another volume and another area,
 // by the mean of what sides along the axes have.
 uint solidBits(uint vertex, uint instance) {
-    uint code = ((vertices[vertex].tangentOct >> 1) & 3u) | ((vertices[vertex].tangentOct >> 14) & 28u);
+    uint code = VERTEX_SOLID_CODE(vertices[vertex].tangentOct);
     float volumes = abs(determinant(mat3(instances[instance].worldFromObject)));
     float areas = length(instances[instance].normalColumn0.xyz) +
                   length(instances[instance].normalColumn1.xyz) +

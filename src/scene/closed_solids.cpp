@@ -160,11 +160,18 @@ std::vector<float> solidThickness(const std::vector<glm::vec3>& positions,
     return result;
 }
 
-std::uint32_t solidBits(float thickness) {
+std::uint8_t solidCode(float thickness) {
     if (thickness < 0) return 0;
     const float steps = std::ceil(std::log2(std::max(thickness, 1e-30f))) + VERTEX_SOLID_BIAS;
-    const auto code = static_cast<std::uint32_t>(std::clamp(steps, 1.0f, 32.0f));
-    return code > 31 ? 0 : (code & 3u) << 1 | (code >> 2) << 16;
+    return steps > 31 ? 0 : static_cast<std::uint8_t>(std::max(steps, 1.0f));
+}
+
+std::vector<std::uint8_t> solidCodes(const Mesh& mesh) {
+    std::vector<std::uint8_t> codes;
+    codes.reserve(mesh.positions.size());
+    for (const float thickness : solidThickness(mesh.positions, mesh.indices))
+        codes.push_back(solidCode(thickness));
+    return codes;
 }
 
 }  // namespace conelight::scene

@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "conelight/scene.h"
+
 namespace conelight::scene {
 
 // For each position the thickness of the connected part whose triangles (three indices each) name it, in the units of
@@ -17,7 +19,10 @@ namespace conelight::scene {
 std::vector<float> solidThickness(const std::vector<glm::vec3>& positions,
                                   const std::vector<std::uint32_t>& indices);
 
-// A thickness rounded up to a power of two, as bits of Vertex::tangentOct (VERTEX_SOLID_BITS); 0: open, or too thick.
-std::uint32_t solidBits(float thickness);
+// A thickness rounded up to a power of two, as VERTEX_SOLID_BITS count it; 0: open, or too thick.
+std::uint8_t solidCode(float thickness);
+
+// Of each vertex of a mesh.
+std::vector<std::uint8_t> solidCodes(const Mesh& mesh);
 
 }  // namespace conelight::scene

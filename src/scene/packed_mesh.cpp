@@ -8,17 +8,6 @@
 #include "scene/mesh_order.h"
 
 namespace conelight::scene {
-namespace {
-
-void markSolids(PackedMesh& mesh) {
-    std::vector<glm::vec3> positions;
-    positions.reserve(mesh.vertices.size());
-    for (const gpu::Vertex& vertex : mesh.vertices) positions.push_back(vertex.position);
-    const std::vector<float> thickness = solidThickness(positions, mesh.indices);
-    for (std::size_t i = 0; i < thickness.size(); ++i) mesh.vertices[i].tangentOct |= solidBits(thickness[i]);
-}
-
-}  // namespace
 
 PackedMesh packed(const Mesh& mesh) {
     PackedMesh to;
@@ -29,10 +18,12 @@ PackedMesh packed(const Mesh& mesh) {
         to.indices.resize(mesh.indices.size());
         std::iota(to.indices.begin(), to.indices.end(), 0u);
     }
-    markSolids(to);
     to.sources = orderForReuse(to.vertices, 0, to.indices, 0);
     if (!whole)
         for (std::uint32_t& source : to.sources) source = mesh.indices[source];
+    const std::vector<std::uint8_t> solids = solidCodes(mesh);
+    for (std::size_t i = 0; i < to.vertices.size(); ++i)
+        to.vertices[i].tangentOct |= VERTEX_SOLID_WORD(std::uint32_t{solids[to.sources[i]]});
     for (std::size_t i = 0; i < to.indices.size(); ++i) {
         if (i % kPartIndices == 0) to.parts.emplace_back();
         to.parts.back().grow(to.vertices[to.indices[i]].position);

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Thin closed solids of two sides have no faces inside; thick ones, and what is open, have (docs/theory/2_voxels.md,
 // "Insides of solids").
-#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "math/octahedral.h"
 #include "support/scenes.h"
 #include "support/voxelize_rig.h"
-#include "voxels/nested_grid.h"
 
 namespace conelight::test {
 namespace {
@@ -17,10 +14,6 @@ constexpr float kLevelEdge = 1;
 
 class VoxelSolidsTest : public GlTest {
   protected:
-    // How many faces look away from a point, and how many towards it.
-    struct Faces {
-        std::size_t outwards = 0, inwards = 0;
-    };
     // In a space of 64 voxels of one metre.
     VoxelizeResult voxelized(Scene scene, int levels = 1, const glm::vec3& eye = glm::vec3(0)) {
         for (const float corner : {-31.0f, 31.0f})  // marks that stretch the grid
@@ -36,17 +29,6 @@ class VoxelSolidsTest : public GlTest {
         else
             surface.build(device, gpu, settings);
         return download(surface);
-    }
-    static Faces facesOf(const VoxelizeResult& result, const glm::vec3& middle) {
-        Faces faces;
-        for (const gpu::FaceRecord& face : result.faces) {
-            const glm::vec3 voxel(voxels::unpackVoxel(face.voxel));
-            const glm::vec3 at = result.grid.worldFromGrid(voxel + 0.5f) - middle;
-            if (std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) > 20) continue;  // a mark
-            const glm::vec3 normal = math::octDecode(math::unpackSnorm2x16(face.normal));
-            ++(glm::dot(normal, at) > 0 ? faces.outwards : faces.inwards);
-        }
-        return faces;
     }
     static Scene boxOf(float edge, bool twoSided, const glm::vec3& at = glm::vec3(0.3f, 0.2f, 0.1f)) {
         Scene scene;
@@ -72,10 +54,8 @@ TEST_F(VoxelSolidsTest, ThinOnesAreAsIfOfOneSide) {
 
 // A box of 12 voxels may be a room.
 TEST_F(VoxelSolidsTest, ThickOnesHaveAnInside) {
-    const Faces one = facesOf(voxelized(boxOf(12, false)), {0.3f, 0.2f, 0.1f});
-    const Faces two = facesOf(voxelized(boxOf(12, true)), {0.3f, 0.2f, 0.1f});
-    EXPECT_EQ(one.inwards, 0u);
-    EXPECT_GT(two.inwards, one.outwards / 2);
+    const std::size_t outside = voxelized(boxOf(12, false)).faces.size();
+    EXPECT_GT(voxelized(boxOf(12, true)).faces.size(), outside + outside / 2);
 }
 
 TEST_F(VoxelSolidsTest, OpenOnesHaveAnInside) {
