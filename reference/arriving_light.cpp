@@ -13,7 +13,7 @@ PathTracerSettings tracerSettings(const ArrivingLight::Settings& settings) {
     result.samplesPerPixel = settings.samples;
     result.bounces = settings.bounces < 0 ? -1 : settings.bounces - 1;
     result.seed = settings.seed;
-    result.emissiveSpheres = false;  // hosts know of none
+    result.smallLamps = false;  // hosts know of none
     return result;
 }
 

@@ -37,7 +37,7 @@ PathTracerSettings tracerSettings(const LightmapSettings& settings) {
     result.samplesPerPixel = settings.samples;
     result.bounces = settings.bounces;
     result.seed = settings.seed;
-    result.emissiveSpheres = false;  // hosts know of none
+    result.smallLamps = false;  // hosts know of none
     return result;
 }
 

@@ -11,7 +11,7 @@
 #include "reference/sphere_light.h"
 #include "reference/surface.h"
 #include "scene/emissive_quads.h"
-#include "scene/emissive_spheres.h"
+#include "scene/small_lamps.h"
 
 namespace conelight::reference {
 namespace {
@@ -109,9 +109,9 @@ LightTable::LightTable(const Scene& scene, DirectEmitters direct, bool extended)
             of.quad = true;
             addRect(quad.light, static_cast<std::uint32_t>(quad.instance), true);
         }
-    if (direct.spheres)
-        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene))
-            ofInstance_[sphere.instance].direct = true;
+    if (direct.smallLamps)
+        for (const scene::SmallLamp& lamp : scene::smallLamps(scene))
+            ofInstance_[lamp.instance].direct = true;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (!ofInstance_[i].quad) addTriangles(scene, i);
     setGroups(extended);

@@ -38,7 +38,7 @@ bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result)
 
 // Which emissive instances count as direct light (PathTracerSettings).
 struct DirectEmitters {
-    bool quads, spheres;
+    bool quads, smallLamps;
 };
 
 class LightTable {

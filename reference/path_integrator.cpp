@@ -55,7 +55,7 @@ PathIntegrator::PathIntegrator(const Scene& scene, const RayScene& rays, const P
     : scene_(scene),
       rays_(rays),
       settings_(settings),
-      lights_(scene, {settings.emissiveQuads, settings.emissiveSpheres},
+      lights_(scene, {settings.emissiveQuads, settings.smallLamps},
               settings.estimator != Estimator::MaterialsOnly),
       surroundings_(scene) {}
 

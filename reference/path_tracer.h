@@ -38,7 +38,7 @@ struct PathTracerSettings {
     Paths paths = Paths::All;
     Estimator estimator = Estimator::Mis;
     bool emissiveQuads = true;         // as light.emissive_quads: decides what is "direct"
-    bool emissiveSpheres = true;       // as light.emissive_spheres: the same
+    bool smallLamps = true;            // as light.small_lamps: the same
     int perBounce = 0;                 // fill PathTracedPicture::bounces for bounces 1..perBounce
     bool features = false;             // fill PathTracedPicture::features
     int threads = 0;                   // 0: all cores

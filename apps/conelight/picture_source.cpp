@@ -251,7 +251,7 @@ reference::PathTracedPicture PictureSource::Impl::trace(const PictureRequest& re
     }
     reference::PathTracerSettings settings = request.reference;
     settings.emissiveQuads = request.settings.light.emissiveQuads;
-    settings.emissiveSpheres = request.settings.light.emissiveSpheres;
+    settings.smallLamps = request.settings.light.smallLamps;
     settings.features = request.denoiser != reference::Denoiser::None;
     reference::PathTracedPicture traced =
         program::trace(*tracer, request.camera, request.size, settings, progress);

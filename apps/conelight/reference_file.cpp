@@ -26,6 +26,9 @@ constexpr int kTextureGeneration = 2;
 // The same for scenes with roughness below the least that is no mirror.
 //   1: the lobe of that least; 2: ideal mirrors.
 constexpr int kMirrorGeneration = 2;
+// The same for scenes with emissive meshes, whose layers depend on what is a small lamp.
+//   1: balls; 2: boxes, too.
+constexpr int kSmallLampGeneration = 2;
 
 bool hasMirrors(const Scene& scene) {
     constexpr float kLeastRoughness = 0.045f;  // math::kMinRoughness
@@ -34,7 +37,7 @@ bool hasMirrors(const Scene& scene) {
     });
 }
 
-// Whether something may be a bulb (light.emissive_spheres), which tells the layers apart.
+// Whether something may be a small lamp (light.small_lamps), which tells the layers apart.
 bool hasEmissiveMeshes(const Scene& scene) {
     return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
         if (instance.mesh < 0 || instance.material < 0) return false;
@@ -86,7 +89,10 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     hash.add(static_cast<int>(s.filter));
     hash.add(static_cast<int>(s.estimator));
     hash.add(request.settings.light.emissiveQuads);
-    if (hasEmissiveMeshes(scene)) hash.add(request.settings.light.emissiveSpheres);
+    if (hasEmissiveMeshes(scene)) {
+        hash.add(request.settings.light.smallLamps);
+        hash.add(kSmallLampGeneration);
+    }
     if (s.paths != reference::Paths::All) hash.add(static_cast<int>(s.paths));
     if (!s.pixels.empty()) hash.add(s.pixels.data(), s.pixels.size());
     return hash.hex();

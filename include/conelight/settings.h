@@ -76,10 +76,10 @@ struct LightSettings {
     int shadowSize = 1024;  // cube faces: half
     int shadowFilter = 0;
     int areaSamples = 16;
-    bool emissiveQuads = true;    // flat emitters are area lights
-    bool emissiveSpheres = true;  // of modes phong, cones and traced: small bulbs are, too
-    int caustics = 65536;         // paths per solid of glass and light; 0: light goes straight through solids
-    int exactLamps = 64;          // of mode traced: more points and spots are drawn by chance
+    bool emissiveQuads = true;  // flat emitters are area lights
+    bool smallLamps = true;     // of modes phong, cones and traced: small bulbs and thin boxes are, too
+    int caustics = 65536;       // paths per solid of glass and light; 0: light goes straight through solids
+    int exactLamps = 64;        // of mode traced: more points and spots are drawn by chance
     bool operator==(const LightSettings&) const = default;
 };
 

@@ -282,15 +282,20 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     uint count = light.sampleGrid * light.sampleGrid;
     float cellArea = rectArea(light) / float(count);
     RectLobe lobe;
-    if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
+    if (specular && whole > 0.0) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
     vec2 sheenSums = vec2(0.0);
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
 #if GLASS
     RectTint tint = rectTint(r.position, light);
 #endif
+    // A light that shines elsewhere has no points: an `if` would skip nothing on a software driver.
+#if SHEEN
     uint k = 0u;
-    do {
+#else
+    uint k = whole > 0.0 ? 0u : count;
+#endif
+    while (k < count) {
         vec3 point = rectSamplePoint(light, k);
         vec3 l = point - r.position;
         float d2 = dot(l, l);
@@ -310,15 +315,15 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         addTint(tint, r.position, light, k, weight * visible);
 #endif
         visibleWeights += weight * visible;
-    } while (++k < count);
+        ++k;
+    }
     // No sample above the horizon, but a corner of the rectangle: its light is small, and taken as visible.
     vec2 share = mix(vec2(1.0), visibleWeights / weights, greaterThan(weights, vec2(0.0)));
     DirectLight added = DirectLight(light.intensity * (whole * share.x), vec3(0.0));
     RectSums sums =
         RectSums(points.exact * cellArea, points.cosine * cellArea / kPi, points.most * cellArea / kPi);
-    if (specular)
-        added.specular =
-            light.intensity * rectSpecular(light, r.position, lobe, b, sums) * (whole > 0.0 ? share.y : 0.0);
+    if (specular && whole > 0.0)
+        added.specular = light.intensity * rectSpecular(light, r.position, lobe, b, sums) * share.y;
     vec3 tinted = vec3(1.0);
 #if GLASS
     tinted = tintOf(tint.irradiance, tint.weights.x);

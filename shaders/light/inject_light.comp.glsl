@@ -32,22 +32,27 @@ layout(std430) writeonly buffer CachedDirect { uint cachedDirect[]; };
 uniform usamplerBuffer emissionParts;
 #endif
 
-// Whether a face holds a part of something of the scene that shines as an area light. Of a sphere: its voxel may meet it.
+// Whether a face holds a part of something of the scene that shines as an area light. Of a sphere or a box: its voxel may
+// meet it.
 // Of a rectangle: it looks the same way, lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has
 // emission of it, too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is
 // ample.
 bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
     bool found = false;
 #if LIGHTS_RECT
-    vec3 reach = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * voxelSize;
+    vec3 bounds = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * voxelSize;
     uint i = lighting.lightEnds.z;
     if (i < lighting.lightEnds.w) do {
             Light light = lights[i];
             vec3 d = position - light.position;
             vec3 u = normalize(light.halfU), v = normalize(light.halfV);
             // 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.
-            bool on = (light.flags & LIGHT_FROM_EMITTER) != 0u && dot(normal, light.direction) > 0.94 &&
-                      abs(dot(d, light.direction)) < 0.25 * voxelSize &&
+            bool side = (light.flags & LIGHT_SIDE) != 0u;
+            bool facing =
+                dot(normal, light.direction) > 0.94 && abs(dot(d, light.direction)) < 0.25 * voxelSize;
+            bool meets = abs(dot(d, light.direction)) < dot(abs(light.direction), vec3(voxelSize));
+            vec3 reach = side ? vec3(voxelSize) : bounds;
+            bool on = (light.flags & LIGHT_FROM_EMITTER) != 0u && (side ? meets : facing) &&
                       abs(dot(d, u)) < length(light.halfU) + dot(abs(u), reach) &&
                       abs(dot(d, v)) < length(light.halfV) + dot(abs(v), reach);
             if (isSphere(light))

@@ -128,9 +128,10 @@ struct Material {
 // times LIGHT_AIM_DISTANCE, aside by cosInner and cosOuter in parts of that.
 #define LIGHT_AIMED 0x100u
 #define LIGHT_AIM_DISTANCE 1e5f
-#define LIGHT_FROM_EMITTER 2u  // stands for an emissive instance (scene/emissive_{quads,spheres}.h)
+#define LIGHT_FROM_EMITTER 2u  // stands for an emissive instance (scene/emissive_quads.h, small_lamps.h)
 #define LIGHT_DISK 4u          // the ellipse in the rectangle
 #define LIGHT_SPHERE 8u        // halfU, halfV and direction times the radius are its axes
+#define LIGHT_SIDE 0x10u       // of a small box: voxels that the box meets show none of its emission
 
 struct Light {
     vec3 position;

@@ -8,9 +8,9 @@
 #include "gl/pace.h"
 #include "math/brdf.h"
 #include "scene/emissive_quads.h"
-#include "scene/emissive_spheres.h"
 #include "scene/gpu_lights.h"
 #include "scene/gpu_materials.h"
+#include "scene/small_lamps.h"
 #include "shared/lighting.h"
 
 namespace conelight::light {
@@ -120,9 +120,11 @@ void Lights::fillTable(const scene::GpuScene& gpuScene, const LightsWanted& want
     if (wanted.emissiveQuads)
         for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene))
             addEmitter(quad.light, quad.instance);
-    if (wanted.emissiveSpheres)
-        for (const scene::EmissiveSphere& sphere : scene::emissiveSpheres(scene, gpuScene.firstBounds()))
-            addEmitter(sphere.light, sphere.instance);
+    if (wanted.smallLamps)
+        for (const scene::SmallLamp& lamp : scene::smallLamps(scene, gpuScene.firstBounds())) {
+            addEmitter(lamp.light, lamp.instance);
+            if (lamp.light.type == LightType::Rect) table_.back().flags |= LIGHT_SIDE;
+        }
     ends_ = scene::lightEnds(table_);
     shaped_ = std::any_of(table_.begin(), table_.end(),
                           [](const gpu::Light& one) { return (one.flags & kShaped) != 0; });

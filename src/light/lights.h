@@ -26,12 +26,12 @@ namespace conelight::light {
 // What a picture asks of the lights.
 struct LightsWanted {
     LightSettings settings;
-    bool emissiveQuads = true;     // flat emitters are in the table
-    bool emissiveSpheres = false;  // and small balls (scene/emissive_spheres.h)
-    bool shadowMaps = true;        // they are drawn; else the table says that nothing is in shadow
-    bool caustics = false;         // castCaustics will follow
-    bool veils = false;            // blended surfaces hide light by their opacity, not all of it or none
-    bool lampTree = false;  // where there are many, lamps are drawn by chance (LightSettings::exactLamps)
+    bool emissiveQuads = true;  // flat emitters are in the table
+    bool smallLamps = false;    // and small balls and boxes (scene/small_lamps.h)
+    bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
+    bool caustics = false;      // castCaustics will follow
+    bool veils = false;         // blended surfaces hide light by their opacity, not all of it or none
+    bool lampTree = false;      // where there are many, lamps are drawn by chance (LightSettings::exactLamps)
     bool operator==(const LightsWanted&) const = default;
 };
 

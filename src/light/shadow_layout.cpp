@@ -297,6 +297,21 @@ int sizeWithin(std::size_t bytes, const ShadowLayout& layout) {
     return size;
 }
 
+// Points along an edge of a box's side, so that all sides that are seen from anywhere have about as many as one light: the
+// largest area that a box shows is that of a box whose edges are the areas of its sides.
+std::uint32_t gridOfSide(const gpu::Light& side, const std::vector<gpu::Light>& lights, std::uint32_t grid) {
+    const auto areaOf = [](const gpu::Light& light) {
+        return glm::length(glm::cross(light.halfU, light.halfV));
+    };
+    float squares = 0;
+    for (const gpu::Light& other : lights)
+        if ((other.flags & LIGHT_SIDE) != 0 && other.customFalloff == side.customFalloff)
+            squares += 0.5f * areaOf(other) * areaOf(other);
+    const float share = areaOf(side) / std::max(std::sqrt(squares), 1e-30f);
+    const auto part = static_cast<std::uint32_t>(std::lround(static_cast<float>(grid) * std::sqrt(share)));
+    return std::min(std::max(part, 2u), grid);
+}
+
 }  // namespace
 
 // The filter's reach, and two for rounding.
@@ -360,6 +375,7 @@ ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const Li
         light.shadow = -1;
         light.flags &= ~LIGHT_AIMED;
         light.sampleGrid = std::max(grid, 1u);
+        if ((light.flags & LIGHT_SIDE) != 0) light.sampleGrid = gridOfSide(light, lights, light.sampleGrid);
     }
     const auto laidOut = [&](int size) {
         Layouter layouter(bounds, firstBounds, settings, size);

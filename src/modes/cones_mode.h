@@ -21,7 +21,7 @@ class ConesMode : public ModeRenderer {
     // Every component that this mode draws has lit voxels or direct light in it.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
-    bool lightsFromSpheres() const override { return true; }
+    bool lightsFromSmallLamps() const override { return true; }
     bool castsCaustics() const override { return true; }
     bool seesVeils() const override { return true; }
 

@@ -74,8 +74,8 @@ class ModeRenderer {
     virtual bool drawsLamps() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.
     virtual bool lightsFromEmitters(const Settings&) const { return true; }
-    // The same of small bulbs, where light.emissive_spheres is on.
-    virtual bool lightsFromSpheres() const { return false; }
+    // The same of small bulbs and thin boxes, where light.small_lamps is on.
+    virtual bool lightsFromSmallLamps() const { return false; }
 
   protected:
     gather::Glass glass_;

@@ -12,7 +12,7 @@ class PhongMode : public ModeRenderer {
     base::Steps drawInSteps(const Frame& frame) override;
     bool needsShadows(const Scene& scene, const Settings& settings) const override;
     bool readsCascades() const override { return true; }
-    bool lightsFromSpheres() const override { return true; }
+    bool lightsFromSmallLamps() const override { return true; }
 };
 
 }  // namespace conelight::modes

@@ -316,7 +316,7 @@ base::Steps Renderer::Impl::prepare(const Settings& settings) {
     const light::LightsWanted wanted{
         .settings = settings.light,
         .emissiveQuads = emitters,
-        .emissiveSpheres = settings.light.emissiveSpheres && mode->lightsFromSpheres(),
+        .smallLamps = settings.light.smallLamps && mode->lightsFromSmallLamps(),
         .shadowMaps = shadows,
         .caustics = mode->castsCaustics(),
         .veils = mode->seesVeils(),

@@ -26,7 +26,7 @@ class TracedMode : public ModeRenderer {
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
-    bool lightsFromSpheres() const override { return true; }
+    bool lightsFromSmallLamps() const override { return true; }
     bool castsCaustics() const override { return true; }
     bool seesVeils() const override { return true; }
     bool drawsLamps() const override { return true; }

@@ -2,9 +2,7 @@
 #include "scene/emissive_quads.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 namespace conelight::scene {
 namespace {
@@ -14,11 +12,7 @@ struct Parallelogram {
 };
 
 // The parallelogram that two triangles make up, or nothing.
-std::optional<Parallelogram> parallelogramOf(const Mesh& mesh) {
-    if (mesh.indices.size() != 6) return std::nullopt;
-    std::array<glm::vec3, 6> p;
-    for (std::size_t i = 0; i < 6; ++i) p[i] = mesh.positions[mesh.indices[i]];
-    const float size = glm::length(mesh.bounds().extent());
+std::optional<Parallelogram> parallelogramOf(const std::array<glm::vec3, 6>& p, float size) {
     const auto same = [&](const glm::vec3& a, const glm::vec3& b) {
         return glm::length(a - b) <= 1e-5f * size;
     };
@@ -55,7 +49,23 @@ Light rectLight(const Parallelogram& quad, const Instance& instance, const Mater
     return light;
 }
 
+std::optional<Light> lightOf(const Mesh& mesh, const Instance& instance, const Material& material) {
+    if (mesh.indices.size() != 6) return std::nullopt;
+    std::array<glm::vec3, 6> corners;
+    for (std::size_t i = 0; i < 6; ++i) corners[i] = mesh.positions[mesh.indices[i]];
+    return quadLight(corners, glm::length(mesh.bounds().extent()), instance, material);
+}
+
 }  // namespace
+
+std::optional<Light> quadLight(const std::array<glm::vec3, 6>& corners, float size, const Instance& instance,
+                               const Material& material) {
+    const std::optional<Parallelogram> quad = parallelogramOf(corners, size);
+    if (!quad) return std::nullopt;
+    const Light light = rectLight(*quad, instance, material);
+    const bool flat = !(glm::length(glm::cross(light.halfU, light.halfV)) > 0);  // by the scale
+    return flat ? std::nullopt : std::optional(light);
+}
 
 bool isPlainEmitter(const Scene& scene, const Instance& instance) {
     if (!instance.visible || instance.material < 0) return false;
@@ -71,14 +81,10 @@ std::vector<EmissiveQuad> emissiveQuads(const Scene& scene) {
         const Instance& instance = scene.instances[i];
         if (!isPlainEmitter(scene, instance)) continue;
         const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-        const std::optional<Parallelogram> quad =
-            parallelogramOf(scene.meshes[static_cast<std::size_t>(instance.mesh)]);
-        if (!quad) continue;
-        quads.push_back({i, rectLight(*quad, instance, material)});
-        if (!(glm::length(glm::cross(quads.back().light.halfU, quads.back().light.halfV)) > 0)) {
-            quads.pop_back();  // scaled flat
-            continue;
-        }
+        const std::optional<Light> light =
+            lightOf(scene.meshes[static_cast<std::size_t>(instance.mesh)], instance, material);
+        if (!light) continue;
+        quads.push_back({i, *light});
         if (!material.doubleSided) continue;
         quads.push_back(quads.back());
         quads.back().light.direction = -quads.back().light.direction;

@@ -4,7 +4,9 @@
 // path tracer. No GL.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "conelight/scene.h"
@@ -17,6 +19,11 @@ struct EmissiveQuad {
     Light light;
 };
 std::vector<EmissiveQuad> emissiveQuads(const Scene& scene);
+
+// The light of two triangles of the object that make up a parallelogram, placed in the world and shining from its front;
+// of others none. Lengths below 1e-5 `size` are none.
+std::optional<Light> quadLight(const std::array<glm::vec3, 6>& corners, float size, const Instance& instance,
+                               const Material& material);
 
 // Whether an instance is seen and emits the same everywhere.
 bool isPlainEmitter(const Scene& scene, const Instance& instance);

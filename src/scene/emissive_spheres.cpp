@@ -14,9 +14,6 @@ namespace {
 
 // An icosahedron is the coarsest ball. More triangles than these are no small bulb, and take time at each change.
 constexpr std::size_t kFewestTriangles = 20, kMostTriangles = 8192;
-// Scenes with more emitters than these are not lit by a few bulbs, and are not searched.
-constexpr std::size_t kMostEmitters = 64;
-constexpr float kGridEdge = 128;  // voxels of the default grid along the longest axis
 // How much nearer to the middle than the farthest corner the nearest may be.
 constexpr double kRound = 0.99;
 // Of an icosahedron, the mean height of faces over the radius is 0.79.
@@ -95,32 +92,19 @@ Light sphereLight(const Ball& ball, const Scene& scene, const Instance& instance
 
 }  // namespace
 
-std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene, const Aabb& bounds) {
+void addEmissiveSpheres(const Scene& scene, float largest, std::vector<SmallLamp>& lamps) {
     std::vector<std::size_t> emitters;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (mayBeBall(scene, scene.instances[i])) emitters.push_back(i);
-    std::vector<EmissiveSphere> spheres;
-    if (bounds.empty() || emitters.size() > kMostEmitters) return spheres;
-    const glm::vec3 extent = bounds.extent();
-    const float largest = std::max({extent.x, extent.y, extent.z}) / kGridEdge;
+    if (emitters.size() > kMostEmitters) return;
+    std::vector<SmallLamp> found;
     for (const std::size_t i : emitters) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const std::optional<Ball> ball = ballOf(mesh, instance.worldFromObject, largest);
-        if (ball && ball->radius < largest) spheres.push_back({i, sphereLight(*ball, scene, instance)});
+        if (ball && ball->radius < largest) found.push_back({i, sphereLight(*ball, scene, instance)});
     }
-    if (spheres.size() > kMostEmissiveSpheres) spheres.clear();
-    return spheres;
-}
-
-std::vector<EmissiveSphere> emissiveSpheres(const Scene& scene) {
-    std::vector<Aabb> boxes;
-    for (const Mesh& mesh : scene.meshes) boxes.push_back(mesh.bounds());
-    Aabb bounds;
-    for (const Instance& instance : scene.instances)
-        if (instance.visible && instance.mesh >= 0)
-            bounds.grow(boxes[static_cast<std::size_t>(instance.mesh)].transformed(instance.worldFromObject));
-    return emissiveSpheres(scene, bounds);
+    if (found.size() <= kMostEmissiveSpheres) lamps.insert(lamps.end(), found.begin(), found.end());
 }
 
 }  // namespace conelight::scene

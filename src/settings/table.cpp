@@ -108,10 +108,9 @@ std::vector<Setting<LightSettings>> lightSettings() {
          "points per area light, a square number"},
         {"emissive_quads", &LightSettings::emissiveQuads,
          "treat flat rectangular emitters as area lights, exactly"},
-        {"emissive_spheres", &LightSettings::emissiveSpheres,
-         "modes phong, cones and traced: treat emissive balls as area lights, where they are less than two "
-         "voxels "
-         "of a grid of 128 wide and no more than 4"},
+        {"small_lamps", &LightSettings::smallLamps,
+         "modes phong, cones and traced: treat emissive balls and boxes as area lights, where they are less "
+         "than two voxels of a grid of 128 wide or thick and no more than 4 of a kind"},
         {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",
          "light paths from each light through each solid of glass, in modes traced and cones; 0: none, light "
          "goes straight through solids"},

@@ -50,20 +50,25 @@ PathTracerSettings samples(int count, bool quads = true) {
     return settings;
 }
 
-// What counts as direct light of a small bulb changes no picture, only its parts.
-TEST(PathTracerLight, BulbsAreDirectLightWhereAsked) {
-    Scene scene = floorScene();
-    Mesh bulb = sphereMesh(16, 8);
-    for (glm::vec3& p : bulb.positions) p = 0.05f * p + glm::vec3(0, 0.5f, 0);
-    addInstance(scene, bulb, diffuseMaterial(glm::vec3(0), glm::vec3(100)));
-    PathTracerSettings settings = samples(64);
-    const Camera camera = cameraAbove({0.3f, 0, 0}, 0.4f, 0.2f);
-    const PathTracedPicture lamp = PathTracer(scene).render(camera, 8, 8, settings);
-    settings.emissiveSpheres = false;
-    const PathTracedPicture emitter = PathTracer(scene).render(camera, 8, 8, settings);
-    EXPECT_EQ(lamp.full.pixels, emitter.full.pixels);
-    EXPECT_GT(meanOf(lamp.direct), 0.99 * meanOf(lamp.full));
-    EXPECT_EQ(meanOf(emitter.direct), 0);
+// What counts as direct light of small lamps changes no picture, only its parts.
+TEST(PathTracerLight, SmallLampsAreDirectLightWhereAsked) {
+    const auto scaled = [](Mesh mesh, const glm::vec3& size) {
+        for (glm::vec3& p : mesh.positions) p = size * p + glm::vec3(0, 0.5f, 0);
+        return mesh;
+    };
+    for (const Mesh& lampMesh :
+         {scaled(sphereMesh(16, 8), glm::vec3(0.05f)), scaled(boxMesh(), {0.1f, 0.005f, 0.2f})}) {
+        Scene scene = floorScene();
+        addInstance(scene, lampMesh, diffuseMaterial(glm::vec3(0), glm::vec3(100)));
+        PathTracerSettings settings = samples(64);
+        const Camera camera = cameraAbove({0.3f, 0, 0}, 0.4f, 0.2f);
+        const PathTracedPicture lamp = PathTracer(scene).render(camera, 8, 8, settings);
+        settings.smallLamps = false;
+        const PathTracedPicture emitter = PathTracer(scene).render(camera, 8, 8, settings);
+        EXPECT_EQ(lamp.full.pixels, emitter.full.pixels);
+        EXPECT_GT(meanOf(lamp.direct), 0.98 * meanOf(lamp.full));
+        EXPECT_EQ(meanOf(emitter.direct), 0);
+    }
 }
 
 TEST(PathTracerLight, PointFollowsTheInverseSquare) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which small bulbs become lights, and what the tables hold then.
-#include "scene/emissive_spheres.h"
+#include "scene/small_lamps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ Scene bulbScene(const Mesh& mesh = sphereMesh(24, 12), const glm::mat4& placed =
 
 TEST(EmissiveSpheresTest, ABulbBecomesALightOfItsArea) {
     const Scene scene = bulbScene();
-    const auto spheres = scene::emissiveSpheres(scene);
+    const auto spheres = scene::smallLamps(scene);
     ASSERT_EQ(spheres.size(), 1u);
     EXPECT_EQ(spheres[0].instance, 1u);
     const Light& light = spheres[0].light;
@@ -57,29 +57,27 @@ TEST(EmissiveSpheresTest, ABulbBecomesALightOfItsArea) {
 }
 
 TEST(EmissiveSpheresTest, CoarseAndMirroredBallsAreBallsToo) {
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(sphereMesh(8, 5))).size(), 1u);
+    EXPECT_EQ(scene::smallLamps(bulbScene(sphereMesh(8, 5))).size(), 1u);
     const Mesh ball = sphereMesh(16, 8);
     Mesh inside = ball;
     for (std::size_t i = 0; i < inside.indices.size(); i += 3)
         std::swap(inside.indices[i], inside.indices[i + 1]);
     const glm::mat4 mirrored = bulbAt(kPlace, kRadius * glm::vec3(1, -1, 1));
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(ball, mirrored)).size(), 1u);
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(inside)).size(), 0u);  // shines inwards
+    EXPECT_EQ(scene::smallLamps(bulbScene(ball, mirrored)).size(), 1u);
+    EXPECT_EQ(scene::smallLamps(bulbScene(inside)).size(), 0u);  // shines inwards
 }
 
 TEST(EmissiveSpheresTest, OthersAreLeftToTheVoxels) {
     const Mesh ball = sphereMesh(24, 12);
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(boxMesh())).size(), 0u);
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(ball, bulbAt(kPlace, kRadius * glm::vec3(1, 1.1f, 1)))).size(),
-              0u);
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(ball, bulbAt(kPlace, glm::vec3(0.04f)))).size(), 0u);  // wide
+    EXPECT_EQ(scene::smallLamps(bulbScene(ball, bulbAt(kPlace, kRadius * glm::vec3(1, 1.1f, 1)))).size(), 0u);
+    EXPECT_EQ(scene::smallLamps(bulbScene(ball, bulbAt(kPlace, glm::vec3(0.04f)))).size(), 0u);  // wide
     Mesh open = ball;
     open.indices.resize(open.indices.size() * 9 / 10);
-    EXPECT_EQ(scene::emissiveSpheres(bulbScene(open)).size(), 0u);
+    EXPECT_EQ(scene::smallLamps(bulbScene(open)).size(), 0u);
     const auto with = [](const std::function<void(Instance&, Material&)>& change) {
         Scene scene = bulbScene();
         change(scene.instances[1], scene.materials[1]);
-        return scene::emissiveSpheres(scene).size();
+        return scene::smallLamps(scene).size();
     };
     EXPECT_EQ(with([](Instance&, Material&) {}), 1u);
     EXPECT_EQ(with([](Instance& i, Material&) { i.visible = false; }), 0u);
@@ -92,10 +90,10 @@ TEST(EmissiveSpheresTest, OthersAreLeftToTheVoxels) {
 TEST(EmissiveSpheresTest, ManyBulbsAreLeftToTheVoxels) {
     Scene scene = bulbScene();
     for (std::size_t i = 1; i <= scene::kMostEmissiveSpheres; ++i) {
-        EXPECT_EQ(scene::emissiveSpheres(scene).size(), i);
+        EXPECT_EQ(scene::smallLamps(scene).size(), i);
         scene.instances.push_back(scene.instances[1]);
     }
-    EXPECT_EQ(scene::emissiveSpheres(scene).size(), 0u);
+    EXPECT_EQ(scene::smallLamps(scene).size(), 0u);
 }
 
 class EmissiveSphereTableTest : public GlTest {};
@@ -103,14 +101,14 @@ class EmissiveSphereTableTest : public GlTest {};
 TEST_F(EmissiveSphereTableTest, TablesFollowTheSwitch) {
     scene::GpuScene gpuScene(bulbScene());
     light::Lights lights;
-    lights.update(device(), gpuScene, {.emissiveSpheres = true});
+    lights.update(device(), gpuScene, {.smallLamps = true});
     ASSERT_EQ(lights.table().size(), 1u);
     EXPECT_EQ(lights.table()[0].type, LIGHT_RECT);
     EXPECT_EQ(lights.table()[0].flags & (LIGHT_SPHERE | LIGHT_FROM_EMITTER),
               LIGHT_SPHERE | LIGHT_FROM_EMITTER);
     EXPECT_TRUE(lights.areInTable(1));
     EXPECT_FALSE(lights.areInTable(0));
-    lights.update(device(), gpuScene, {.emissiveSpheres = false});
+    lights.update(device(), gpuScene, {.smallLamps = false});
     EXPECT_TRUE(lights.table().empty());
     EXPECT_FALSE(lights.areInTable(1));
 }
@@ -127,7 +125,7 @@ TEST_F(EmissiveSphereTableTest, VoxelsLeaveItsLightOut) {
     }
     for (const bool spheres : {false, true}) {
         CacheRig rig(programs(), scene, 128);
-        rig.light.emissiveSpheres = spheres;
+        rig.light.smallLamps = spheres;
         rig.relight();
         const auto faces = rig.faces();
         const auto shining = std::count_if(faces.begin(), faces.end(),
@@ -141,7 +139,7 @@ TEST_F(EmissiveSphereTableTest, ABulbDoesNotHideItself) {
     const Scene scene = bulbScene();
     scene::GpuScene gpuScene(scene);
     light::Lights lights;
-    lights.update(device(), gpuScene, {.emissiveSpheres = true});
+    lights.update(device(), gpuScene, {.smallLamps = true});
     std::vector<gpu::Light> table = lights.table();
     const light::ShadowLayout layout = light::layOutShadows(scene.bounds(), scene.bounds(), {}, table);
     ASSERT_EQ(layout.views.size(), 96u);

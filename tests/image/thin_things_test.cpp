@@ -14,7 +14,7 @@ class ThinThings : public TracedModeTest {
     double indirectMean(const Scene& scene, bool near = true, int voxels = 128) const {
         Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
         settings.voxels.size = voxels;
-        settings.light.emissiveSpheres = false;  // bulbs shine by their voxels
+        settings.light.smallLamps = false;  // bulbs shine by their voxels
         settings.traced.exactNear = near;
         // A mean over pixels is asked for: with 4 passes it differs by 2 % from draw to draw, with 16 by 0.5 %.
         settings.traced.passes = 16;

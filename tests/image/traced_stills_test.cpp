@@ -57,7 +57,7 @@ TEST_F(TracedStillsTest, PassesAimAtDrawsOfTheirOwn) {
 TEST_F(TracedStillsTest, RimsOfBulbsThrowNoDotsOnTools) {
     const Scene scene = io::generateScene("workshop");
     Settings settings = convergedSettings(128);
-    settings.light.emissiveSpheres = false;  // the bulb shines by its voxels
+    settings.light.smallLamps = false;  // the bulb shines by its voxels
     settings.traced.cacheUpdates = 10;
     settings.traced.cacheRays = 2;
     const Image image = drawn(scene, 80, 60, settings);

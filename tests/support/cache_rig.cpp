@@ -15,7 +15,7 @@ namespace conelight::test {
 CacheRig::CacheRig(gl::ProgramLibrary& library, const Scene& from, int voxelSize)
     : device{library, profiler}, scene(from), surface(voxels.surface()) {
     voxelSettings.size = voxelSize;
-    light.emissiveSpheres = false;  // what shines does so by its voxels, unless a test asks
+    light.smallLamps = false;  // what shines does so by its voxels, unless a test asks
     voxelize();
     relight();
 }
@@ -31,9 +31,8 @@ void CacheRig::voxelize() {
 }
 
 void CacheRig::relight() {
-    lights.update(
-        device, scene,
-        {.settings = light, .emissiveQuads = light.emissiveQuads, .emissiveSpheres = light.emissiveSpheres});
+    lights.update(device, scene,
+                  {.settings = light, .emissiveQuads = light.emissiveQuads, .smallLamps = light.smallLamps});
     const bool fits = light::hasOtherEmitters(scene, lights);
     if (fits) fit.update(device, this->scene, voxels);
     const light::RayLight rays{directLight, fits ? &fit : nullptr};

@@ -29,7 +29,7 @@ struct Wanted {
     int width = 0, height = 0;
     int samplesPerPixel = 0;
     Component component = Component::Full;
-    bool emissiveQuads = true, emissiveSpheres = true;
+    bool emissiveQuads = true, smallLamps = true;
 
     bool samePicture(const Wanted& other) const {
         return sameView(other) && width == other.width && height == other.height &&
@@ -37,7 +37,7 @@ struct Wanted {
     }
     bool sameView(const Wanted& other) const {
         return tables == other.tables && component == other.component &&
-               emissiveQuads == other.emissiveQuads && emissiveSpheres == other.emissiveSpheres &&
+               emissiveQuads == other.emissiveQuads && smallLamps == other.smallLamps &&
                camera.eye == other.camera.eye && camera.target == other.camera.target &&
                camera.up == other.camera.up && camera.fovY == other.camera.fovY &&
                camera.zNear == other.camera.zNear && camera.lensDiameter == other.camera.lensDiameter &&
@@ -52,7 +52,7 @@ Wanted wantedOf(const Session& session) {
     wanted.camera = session.camera();
     wanted.component = session.settings().component;
     wanted.emissiveQuads = session.settings().light.emissiveQuads;
-    wanted.emissiveSpheres = session.settings().light.emissiveSpheres;
+    wanted.smallLamps = session.settings().light.smallLamps;
     return wanted;
 }
 
@@ -124,7 +124,7 @@ void BackgroundReference::Impl::refinePaths(const Wanted& work, TracedScene& tra
         settings.samplesPerPixel = std::clamp(done, 2, 32);
         settings.seed = round + 1;
         settings.emissiveQuads = work.emissiveQuads;
-        settings.emissiveSpheres = work.emissiveSpheres;
+        settings.smallLamps = work.smallLamps;
         settings.threads = BackgroundJob::threads();
         const reference::PathTracedPicture picture =
             traced.tracer->render(work.camera, work.width, work.height, settings,

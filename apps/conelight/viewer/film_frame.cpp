@@ -46,7 +46,7 @@ bool FilmFrame::start(const Session& session, const glm::ivec2& size,
     }
     reference::PathTracerSettings wanted = settings;
     wanted.emissiveQuads = session.settings().light.emissiveQuads;
-    wanted.emissiveSpheres = session.settings().light.emissiveSpheres;
+    wanted.smallLamps = session.settings().light.smallLamps;
     wanted.threads = BackgroundJob::threads();
     m.work = std::make_shared<Impl::Work>();
     return m.job.start(
