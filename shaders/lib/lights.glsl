@@ -282,7 +282,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     uint count = light.sampleGrid * light.sampleGrid;
     float cellArea = rectArea(light) / float(count);
     RectLobe lobe;
-    if (specular && whole > 0.0) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
+    if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
     vec2 sheenSums = vec2(0.0);
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);

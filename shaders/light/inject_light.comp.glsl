@@ -33,10 +33,9 @@ uniform usamplerBuffer emissionParts;
 #endif
 
 // Whether a face holds a part of something of the scene that shines as an area light. Of a sphere or a box: its voxel may
-// meet it.
-// Of a rectangle: it looks the same way, lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has
-// emission of it, too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is
-// ample.
+// meet it. Of a rectangle: it looks the same way, lies in its plane and its bounds reach into it. A voxel on the rectangle's
+// edge has emission of it, too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter
+// voxel is ample.
 bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
     bool found = false;
 #if LIGHTS_RECT
