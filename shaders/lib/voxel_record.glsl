@@ -89,9 +89,13 @@ int mainDirection(vec3 n) {
 }
 // The direction that a face with the normal n looks to.
 int faceDirection(uvec4 hitTexel, vec3 n) { return sideOfAxis(int(hitTexel.w >> 30), n); }
-// Offset from the plane of a face to the highest surface in front of it, along the face's axis: how far the
+// Offset from the plane of a face to just before the highest surface in front of it, along the face's axis: how far the
 // bounds reach beyond a plane piece. Direct light on the face is evaluated there, not inside the surface in
-// front. Zero for plane pieces, unless the rounding of the bounds exceeds its mean.
+// front. Zero for plane pieces, unless the rounding of the bounds exceeds its mean. A step that rounding cannot explain is
+// real: then the offset, rounded too, leads before it, as light from straight above would be in its shadow.
+const float kMeanRounding = 1.5 / 31.0;
+const float kMostRounding = 3.0 / 31.0;
+const float kBeforeFront = 0.5 / 31.0;
 vec3 faceFrontOffset(uvec4 hitTexel, vec3 n) {
     uint axis = hitTexel.w >> 30;
     vec3 k = vec3(axis == 0u, axis == 1u, axis == 2u);
@@ -103,7 +107,8 @@ vec3 faceFrontOffset(uvec4 hitTexel, vec3 n) {
     float height = (unpackOffset(hitTexel.y) - dot(n, 0.5 * (lower + upper) * across)) / facing;
     float reach = 0.5 * dot(abs(n) * across, upper - lower) / facing;
     float top = max(dot(lower, k), dot(upper, k));
-    return k * clamp(top - height - reach - 1.5 / 31.0, 0.0, 1.0);
+    float front = top - height - reach;
+    return k * clamp(front + (front > kMostRounding ? kBeforeFront : -kMeanRounding), 0.0, 1.0);
 }
 // Centre of what the face holds: the middle of its bounds moved onto its plane, and up to what stands before
 // it, in grid coordinates.

@@ -12,6 +12,7 @@
 #include "gl/pass.h"
 #include "math/octahedral.h"
 #include "scene/gpu_scene.h"
+#include "support/cache_rig.h"
 #include "support/gl_fixture.h"
 #include "support/reference_voxelizer.h"
 #include "support/view_rig.h"
@@ -364,6 +365,36 @@ void main() {
         voxelize(plane, unitGrid(glm::ivec3(16)));
         for (const glm::vec4& rise : rises()) EXPECT_LT(glm::length(glm::vec3(rise)), 1.0f / 31);
     }
+}
+
+// A lamp straight above a sheet that ends within voxels: nothing but the height of the sheet keeps its light there.
+TEST_F(VoxelLayers, ALampAboveTheEdgeOfASheetLightsIt) {
+    const float voxel = 4.0f / 64;
+    for (const float covered : {0.3f, 0.6f, 0.9f})
+        for (const float gap : {0.15f, 0.2f, 0.5f}) {
+            Scene scene;
+            addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), painted(glm::vec3(0.5f)));
+            const float half = (4 + covered) * voxel, height = gap * voxel;
+            addInstance(scene, quadMesh({-half, height, half}, {2 * half, 0, 0}, {0, 0, -2 * half}),
+                        painted(glm::vec3(0.5f)));
+            Light lamp;
+            lamp.position = {0, 1, 0};
+            lamp.intensity = glm::vec3(10);
+            scene.lights.push_back(lamp);
+            CacheRig rig(programs(), scene, 64);
+            rig.relight();
+            int seen = 0;
+            for (const CachedFace& face : rig.faces()) {
+                const glm::vec3 way = lamp.position - face.position;
+                const float d2 = glm::dot(way, way);
+                if (face.normal.y < 0.9f || std::max(std::abs(way.x), std::abs(way.z)) > half + voxel)
+                    continue;
+                const float expected = 10 * way.y / std::sqrt(d2) / d2 * 0.5f / glm::pi<float>();
+                EXPECT_NEAR(face.radiance.r / expected, 1, 0.1f) << covered << ' ' << gap;
+                ++seen;
+            }
+            EXPECT_GT(seen, 80);
+        }
 }
 
 TEST_F(VoxelLayers, HundredsOfLayersAreOne) {
