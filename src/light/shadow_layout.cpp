@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "scene/gpu_lights.h"
 #include "shared/rect_points.h"
 
 namespace conelight::light {
@@ -300,14 +301,11 @@ int sizeWithin(std::size_t bytes, const ShadowLayout& layout) {
 // Points along an edge of a box's side, so that all sides that are seen from anywhere have about as many as one light: the
 // largest area that a box shows is that of a box whose edges are the areas of its sides.
 std::uint32_t gridOfSide(const gpu::Light& side, const std::vector<gpu::Light>& lights, std::uint32_t grid) {
-    const auto areaOf = [](const gpu::Light& light) {
-        return glm::length(glm::cross(light.halfU, light.halfV));
-    };
     float squares = 0;
     for (const gpu::Light& other : lights)
         if ((other.flags & LIGHT_SIDE) != 0 && other.customFalloff == side.customFalloff)
-            squares += 0.5f * areaOf(other) * areaOf(other);
-    const float share = areaOf(side) / std::max(std::sqrt(squares), 1e-30f);
+            squares += 0.5f * scene::areaOf(other) * scene::areaOf(other);
+    const float share = scene::areaOf(side) / std::max(std::sqrt(squares), 1e-30f);
     const auto part = static_cast<std::uint32_t>(std::lround(static_cast<float>(grid) * std::sqrt(share)));
     return std::min(std::max(part, 2u), grid);
 }

@@ -84,20 +84,11 @@ std::optional<float> halfThickness(const Sides& sides) {
     return thinnest;
 }
 
-bool mayBeBox(const Scene& scene, const Instance& instance) {
-    return isPlainEmitter(scene, instance) && instance.voxelized && instance.mesh >= 0 &&
-           scene.meshes[static_cast<std::size_t>(instance.mesh)].triangleCount() == kTriangles;
-}
-
 }  // namespace
 
 void addEmissiveBoxes(const Scene& scene, float largest, std::vector<SmallLamp>& lamps) {
-    std::vector<std::size_t> emitters;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (mayBeBox(scene, scene.instances[i])) emitters.push_back(i);
-    if (emitters.size() > kMostEmitters) return;
     std::vector<SmallLamp> found;
-    for (const std::size_t i : emitters) {
+    for (const std::size_t i : possibleLamps(scene, kTriangles, kTriangles)) {
         const Instance& instance = scene.instances[i];
         const std::optional<Sides> sides =
             sidesOf(scene.meshes[static_cast<std::size_t>(instance.mesh)], instance,

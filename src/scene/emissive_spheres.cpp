@@ -7,8 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include "scene/emissive_quads.h"
-
 namespace conelight::scene {
 namespace {
 
@@ -74,12 +72,6 @@ std::optional<Ball> ballOf(const Mesh& mesh, const glm::mat4& worldFromObject, f
     return Ball{glm::vec3(center), static_cast<float>(std::sqrt(area / (4 * std::numbers::pi)))};
 }
 
-bool mayBeBall(const Scene& scene, const Instance& instance) {
-    if (!isPlainEmitter(scene, instance) || !instance.voxelized || instance.mesh < 0) return false;
-    const std::size_t triangles = scene.meshes[static_cast<std::size_t>(instance.mesh)].triangleCount();
-    return triangles >= kFewestTriangles && triangles <= kMostTriangles;
-}
-
 Light sphereLight(const Ball& ball, const Scene& scene, const Instance& instance) {
     Light light;
     light.name = instance.name;
@@ -93,12 +85,8 @@ Light sphereLight(const Ball& ball, const Scene& scene, const Instance& instance
 }  // namespace
 
 void addEmissiveSpheres(const Scene& scene, float largest, std::vector<SmallLamp>& lamps) {
-    std::vector<std::size_t> emitters;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (mayBeBall(scene, scene.instances[i])) emitters.push_back(i);
-    if (emitters.size() > kMostEmitters) return;
     std::vector<SmallLamp> found;
-    for (const std::size_t i : emitters) {
+    for (const std::size_t i : possibleLamps(scene, kFewestTriangles, kMostTriangles)) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const std::optional<Ball> ball = ballOf(mesh, instance.worldFromObject, largest);

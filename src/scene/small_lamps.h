@@ -14,8 +14,6 @@ namespace conelight::scene {
 // A light is asked at every pixel: scenes with more small balls than these leave all to the voxels; the same of boxes.
 constexpr std::size_t kMostEmissiveSpheres = 4;
 constexpr std::size_t kMostEmissiveBoxes = 4;
-// Scenes with more emitters of as many triangles as such a shape are not lit by a few, and are not searched.
-constexpr std::size_t kMostEmitters = 64;
 
 // A ball is one light, a box has six that follow one another.
 struct SmallLamp {
@@ -26,5 +24,10 @@ struct SmallLamp {
 // (GpuScene::firstBounds), which does not change when something moves. Without them they are made here.
 std::vector<SmallLamp> smallLamps(const Scene& scene, const Aabb& bounds);
 std::vector<SmallLamp> smallLamps(const Scene& scene);
+
+// Instances that may be such a shape: plain emitters in the voxels, of so many triangles. None where there are more than 64:
+// a few lamps do not light such a scene, and it is not searched.
+std::vector<std::size_t> possibleLamps(const Scene& scene, std::size_t fewestTriangles,
+                                       std::size_t mostTriangles);
 
 }  // namespace conelight::scene
