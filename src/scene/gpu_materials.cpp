@@ -8,6 +8,8 @@
 #include "gl/pass.h"
 #include "gl/work.h"
 #include "math/sheen.h"
+#include "math/srgb.h"
+#include "scene/mip_levels.h"
 #include "scene/normal_map.h"
 #include "shared/voxels.h"
 
@@ -47,19 +49,13 @@ gl::Sampler samplerOf(const Filtering& f, const std::string& label) {
                        label);
 }
 
-float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-
-float linearToSrgb(float c) {
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-}
-
 // Box-filters (or repeats) a texture to kSurfaceEdge^2 linear values.
 std::vector<glm::vec4> linearSurface(const Texture& texture) {
     std::vector<glm::vec4> level(static_cast<std::size_t>(kSurfaceEdge) * kSurfaceEdge);
     float toLinear[256];
     for (int i = 0; i < 256; ++i) {
         const float value = static_cast<float>(i) / 255.0f;
-        toLinear[i] = texture.srgb ? srgbToLinear(value) : value;
+        toLinear[i] = texture.srgb ? math::srgbToLinear(value) : value;
     }
     const std::size_t pitch = static_cast<std::size_t>(texture.width);
     for (int y = 0; y < kSurfaceEdge; ++y) {
@@ -103,8 +99,8 @@ std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     bytes.reserve(4 * level.size());
     for (const glm::vec4& texel : level)
         for (int i = 0; i < 4; ++i)
-            bytes.push_back(
-                static_cast<std::uint8_t>(std::lround((i < 3 ? linearToSrgb(texel[i]) : texel[i]) * 255.0f)));
+            bytes.push_back(static_cast<std::uint8_t>(
+                std::lround((i < 3 ? math::linearToSrgb(texel[i]) : texel[i]) * 255.0f)));
     return bytes;
 }
 
@@ -134,7 +130,7 @@ glm::vec4 meanTexel(const TextureRef& use, const std::vector<Texture>& textures)
             const float value = static_cast<float>(level) / 255.0f;
             const auto count =
                 static_cast<double>(counts[static_cast<std::size_t>(c)][static_cast<std::size_t>(level)]);
-            sum[c] += count * static_cast<double>(texture.srgb && c < 3 ? srgbToLinear(value) : value);
+            sum[c] += count * static_cast<double>(texture.srgb && c < 3 ? math::srgbToLinear(value) : value);
         }
     return glm::vec4(sum / static_cast<double>(texture.rgba.size() / 4));
 }
@@ -285,8 +281,12 @@ void SceneTextures::putForDrawing(std::size_t index, const Texture& texture, boo
         t = {};
         t = gl::Texture({GL_TEXTURE_2D, format, texture.width, texture.height, 1, 0}, label);
     }
-    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, normals ? unitNormals(texture.rgba).data() : texture.rgba.data());
-    t.generateMipmaps();
+    const std::vector<std::uint8_t> unit = normals ? unitNormals(texture.rgba) : std::vector<std::uint8_t>();
+    const std::vector<std::uint8_t>& texels = normals ? unit : texture.rgba;
+    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    const std::vector<MipLevel> levels = smallerLevels(texels, texture.width, texture.height, texture.srgb);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        t.upload(static_cast<int>(i) + 1, GL_RGBA, GL_UNSIGNED_BYTE, levels[i].rgba.data());
     drawn_[index].normals = normals;
     drawn_[index].sampler = samplerOf({texture.wrapU, texture.wrapV, texture.filter, true}, label);
 }

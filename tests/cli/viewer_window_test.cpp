@@ -169,7 +169,8 @@ TEST_F(ViewerPanelsTest, EverySizeAndScaleIsDrawnWhole) {
             int different = 0;
             for (int y = 0; y < shot.height; y += 3)
                 for (int x = 0; x < shot.width; x += 3) {
-                    if (y >= place.y + place.w && y < line.y + line.w && x >= line.x && x < line.x + line.z) continue;
+                    if (y >= place.y + place.w && y < line.y + line.w && x >= line.x && x < line.x + line.z)
+                        continue;
                     const std::size_t i = (std::size_t(y) * std::size_t(shot.width) + std::size_t(x)) *
                                           std::size_t(shot.channels);
                     const glm::ivec3 p(shot.pixels[i], shot.pixels[i + 1], shot.pixels[i + 2]);
