@@ -25,6 +25,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/surface_array.glsl"
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
+#include "lib/pixel_shift.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(rgba32ui) writeonly uniform uimage2D result;
@@ -76,9 +77,11 @@ struct LobeRay {
     int lightFace;  // a face of the voxel that it is aimed at; -1: none
 };
 
-LobeRay sampleLobe(Surface s, Brdf b, uint seed, uint number) {
+// `shift`: of the sequence that all pixels share, so that neighbours complement each other.
+LobeRay sampleLobe(Surface s, Brdf b, uint shift, uint number) {
+    vec2 xi = fract(sequencePoint(kPixelSequence, number) + unpackShift(shift).xy);
     vec3 weight;
-    vec3 direction = reflectedDirection(b, s, sequencePoint(seed, number), weight);
+    vec3 direction = reflectedDirection(b, s, xi, weight);
     return LobeRay(Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal), weight, -1);
 }
 
@@ -181,7 +184,7 @@ float clampedShare(Brdf b, Surface s, LobeRay drawn, vec3 brought, float ofDiffu
 }
 
 // Ray `i` of a pixel: first those of the lobe, then aimed ones.
-LobeRay drawRay(Surface s, Brdf b, uint seed, int i) {
+LobeRay drawRay(Surface s, Brdf b, uint seed, uint shift, int i) {
     int rays = int(pixelRays.rays);
     uint first = pixelRays.pass * pixelRays.rays;
     LobeRay drawn;
@@ -190,7 +193,7 @@ LobeRay drawRay(Surface s, Brdf b, uint seed, int i) {
         drawn = aimAtVoxel(s, b, seed, first + uint(i - rays));
     else
 #endif
-        drawn = sampleLobe(s, b, seed, first + uint(i));
+        drawn = sampleLobe(s, b, shift, first + uint(i));
     return drawn;
 }
 
@@ -205,6 +208,15 @@ void setRayCone(Surface s, Brdf b) {
 #endif
 }
 
+// How many passes are averaged. What a smooth surface shows moves otherwise than the surface: means are short where it or
+// the eye moves.
+float longestMean(ivec2 pixel, Surface s, Brdf b) {
+    vec3 axis = 2.0 * dot(s.normal, s.toEye) * s.normal - s.toEye;
+    float ofLobe =
+        reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02)) : 1.0;
+    return mix(ofLobe, longestMeanAt(s.position), smoothstep(0.1, 0.5, s.roughness));
+}
+
 void main() {
 #if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
@@ -217,6 +229,7 @@ void main() {
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
+    uint shift = pixelShift(uvec2(pixel), seed);
     float inverseFlux = aimedInverseFlux(b, glossy);
     bool aims = inverseFlux > 0.0;
     float ofDiffuse = diffuseBrightness(s, aims);
@@ -225,7 +238,7 @@ void main() {
     int i = 0;
     do {
         // Draw a ray
-        LobeRay drawn = drawRay(s, b, seed, i);
+        LobeRay drawn = drawRay(s, b, seed, shift, i);
         bool counts = glossy && drawn.weight.r + drawn.weight.g + drawn.weight.b > 0.0;
         drawn.ray.tMax = counts ? drawn.ray.tMax : -1.0;
         setRayCone(s, b);
@@ -258,10 +271,5 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    // What a smooth surface shows moves otherwise than the surface: means are short where it or the eye moves.
-    vec3 axis = 2.0 * dot(s.normal, s.toEye) * s.normal - s.toEye;
-    float ofLobe =
-        reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02)) : 1.0;
-    float longest = mix(ofLobe, longestMeanAt(s.position), smoothstep(0.1, 0.5, s.roughness));
-    imageStore(result, pixel, withPass(pixel, s, seen, value, longest));
+    imageStore(result, pixel, withPass(pixel, s, seen, value, longestMean(pixel, s, b)));
 }

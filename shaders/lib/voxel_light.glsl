@@ -111,8 +111,9 @@ struct Footprint {
 void meetSurface(inout Footprint footprint, Ray ray, float t, vec3 normal, float curvature) {
     if (footprint.angle <= 0.0) return;
     footprint.radius += max(t, 0.0) * footprint.angle;
-    float slope = 0.5 * footprint.angle +
-                  curvature * footprint.radius / max(abs(dot(ray.direction, normal)), kLeastFootprintCosine);
+    // Met aslant it is an ellipse: a disk of its area counts.
+    float cosine = max(abs(dot(ray.direction, normal)), kLeastFootprintCosine);
+    float slope = 0.5 * footprint.angle + curvature * footprint.radius * inversesqrt(cosine);
     footprint.alpha2 = min(0.5 * slope * slope, 1.0);
     footprint.angle = 2.0 * slope;
 }
