@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "gl/gl.h"
 #include "gl/pace.h"
@@ -45,6 +46,7 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
                           scene.skyRevision(), wanted};
     if (revision_ && from_ == sources) co_return;
     revision_ = {};
+    quarters_ = 0;
     fillTable(scene, wanted);
     const bool veils =
         wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
@@ -62,6 +64,22 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
     profile_ = device.profile;
     if (hasGlass() || hasCaustics()) caustics_.clear();
     revision_ = ownRevision_ = base::Revision::next();
+}
+
+bool Lights::drawsAreaShadows() const {
+    return from_.wanted.shadowMaps && from_.wanted.settings.shadowSize > 0 &&
+           from_.wanted.settings.areaSamples > 1 && ends_.w > ends_.z;
+}
+
+base::Steps Lights::turnInSteps(const gl::Device& device, const scene::GpuScene& scene, int quarters) {
+    if (quarters == quarters_ || !drawsAreaShadows()) co_return;
+    quarters_ = -1;
+    fillTable(scene, from_.wanted);
+    for (auto light = table_.begin() + static_cast<std::ptrdiff_t>(ends_.z); light != table_.end(); ++light)
+        for (int i = 0; i < quarters; ++i) light->halfU = std::exchange(light->halfV, -light->halfU);
+    co_await drawShadows(device, scene, from_.wanted.settings, hasVeils());
+    upload(scene.source());
+    quarters_ = quarters;
 }
 
 // Rays find what is in the voxels: where something else casts shadows, lamps need maps.

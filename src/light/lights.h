@@ -45,6 +45,11 @@ class Lights {
         updateInSteps(device, scene, wanted).finish();
     }
     base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene, LightsWanted wanted);
+    // Area lights are turned about their normals by quarters of a turn: as bright and as large, with sample points
+    // elsewhere, and their shadow maps drawn anew. For views of a picture at rest, whose mean has the penumbra of all
+    // points. Behind an update, which may turn them back. The revision stays, since faces keep their light. GL state
+    // changed: as update.
+    base::Steps turnInSteps(const gl::Device& device, const scene::GpuScene& scene, int quarters);
     // The light that solids of glass send on, where it was wanted and there is any: of lights and voxels as they
     // are, which have octant words then (castsCaustics). Returns at once when neither has changed.
     void castCaustics(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels) {
@@ -88,6 +93,7 @@ class Lights {
     void fillTable(const scene::GpuScene& scene, const LightsWanted& wanted);
     void addEmitter(const Light& light, std::size_t instance);
     bool wantsTree(const scene::GpuScene& scene, const LightsWanted& wanted) const;
+    bool drawsAreaShadows() const;
     base::Steps drawShadows(const gl::Device& device, const scene::GpuScene& scene, LightSettings settings,
                             bool veils);
     void updateProfiles(scene::Profiles profiles);
@@ -118,6 +124,7 @@ class Lights {
         bool operator==(const Sources&) const = default;
     };
     Sources from_;
+    int quarters_ = 0;  // that area lights are turned by; -1: some of their maps
     base::Revision revision_;
 };
 

@@ -65,6 +65,10 @@ int viewsOfStill(const Settings& settings, const Camera& camera) {
     return settings.image.antialiasing > 0 ? settings.image.antialiasing : camera.hasLens() ? kLensViews : 0;
 }
 
+// By how many quarters area lights are turned for a view: neighbouring views share maps, and the last ones are unturned,
+// as the next picture begins.
+int quartersOf(int view, int count) { return (4 * view / count + 1) % 4; }
+
 // Through points of the pixel, or their centres, and points of the lens.
 view::PixelPart partOfStill(const Settings& settings, int index) {
     view::PixelPart part;
@@ -189,7 +193,10 @@ base::Steps Renderer::Impl::drawPicture(const WantedPicture& asked) {
     const Settings& settings = asked.settings;
     // Views of surfaces need neither lights nor a mode.
     const bool debugView = image::isDebugView(settings.component);
-    if (!debugView || settings.view.voxels) co_await prepare(settings);
+    if (!debugView || settings.view.voxels) {
+        co_await prepare(settings);
+        if (!isTemporal(settings)) co_await lights.turnInSteps(device, *scene, 0);
+    }
     co_await gl::rest(device);
     const int count = viewsOfStill(settings, asked.camera);
     co_await prepareCascades(asked.camera, settings);
@@ -256,6 +263,7 @@ base::Steps Renderer::Impl::seePart(const Camera& camera, const Settings& settin
 base::Steps Renderer::Impl::drawParts(const Camera& camera, const Settings& settings, int count) {
     const image::LinearImage& picture = target();
     for (int i = 0; i < count; ++i) {
+        co_await lights.turnInSteps(device, *scene, quartersOf(i, count));
         co_await seePart(camera, settings, partOfStill(settings, i));
         const modes::Frame part{.device = device,
                                 .scene = *scene,
@@ -277,6 +285,8 @@ base::Steps Renderer::Impl::drawTemporal(const Camera& camera, const Settings& s
     if (!temporal) temporal.emplace();
     temporal->follow({*scene, camera, picture.width(), picture.height(), settings});
     const bool held = lightHeld && temporal->still();
+    const int quarters = held ? quartersOf(temporal->frame() % kTemporalViews, kTemporalViews) : 0;
+    co_await lights.turnInSteps(device, *scene, quarters);
     const modes::Frame centers = frame(settings);
     if (temporal->fresh())
         co_await drawLight(centers);
@@ -378,6 +388,7 @@ void Renderer::Impl::collectStats() {
 // The mode's passes once more, for one pixel, on the surfaces of the last picture.
 PixelInspection Renderer::Impl::inspect(int x, int y) {
     prepare(shownAs.settings).finish();
+    lights.turnInSteps(device, *scene, 0).finish();
     if (std::exchange(left, false)) {
         prepareCascades(shownAs.camera, shownAs.settings).finish();
         seeCenters(shownAs).finish();
