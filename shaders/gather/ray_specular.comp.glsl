@@ -77,9 +77,11 @@ struct LobeRay {
     int lightFace;  // a face of the voxel that it is aimed at; -1: none
 };
 
-// `shift`: of the sequence that all pixels share, so that neighbours complement each other.
+// `shift`: of the sequence that all pixels share, so that neighbours complement each other. Within the 64th that it tells
+// they are random, by 14 bits of it: lobes that show one small thing to all pixels do not show it 64 times.
 LobeRay sampleLobe(Surface s, Brdf b, uint shift, uint number) {
-    vec2 xi = fract(sequencePoint(kPixelSequence, number) + unpackShift(shift).xy);
+    vec2 within = vec2((shift >> 12) & 127u, (shift >> 19) & 127u) / 8192.0;
+    vec2 xi = fract(sequencePoint(kPixelSequence, number) + unpackShift(shift).xy + within);
     vec3 weight;
     vec3 direction = reflectedDirection(b, s, xi, weight);
     return LobeRay(Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal), weight, -1);
