@@ -5,6 +5,7 @@
 
 #include "conelight/error.h"
 #include "gl/storage.h"
+#include "scene/mip_levels.h"
 #include "support/light_field_rig.h"
 #include "support/scenes.h"
 
@@ -185,6 +186,14 @@ struct TextureOfHost {
         glTextureSubImage2D(name, 0, 0, 0, edge, edge, layout, type, texels);
         glGenerateTextureMipmap(name);
     }
+    // With levels of the library's, which are not the driver's.
+    void putLevels(const Texture& texels) const {
+        int level = 0;
+        for (const scene::MipLevel& one :
+             scene::smallerLevels(texels.rgba, texels.width, texels.height, texels.srgb))
+            glTextureSubImage2D(name, ++level, 0, 0, one.width, one.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                                one.rgba.data());
+    }
     ~TextureOfHost() { glDeleteTextures(1, &name); }
     TextureOfHost(const TextureOfHost&) = delete;
     TextureOfHost& operator=(const TextureOfHost&) = delete;
@@ -228,6 +237,7 @@ TEST_F(LightFieldHostMesh, TexturesOfTheHostShowAsOnesInArrays) {
         Renderer expected;
         expected.setScene(scene);
         const TextureOfHost own(GL_SRGB8_ALPHA8, edge, GL_RGBA, GL_UNSIGNED_BYTE, texels.rgba.data());
+        own.putLevels(texels);
         Renderer renderer;
         renderer.setScene(texturedRoom(scene_, plainTexture(1, {255, 255, 255})));
         const std::vector<glm::vec4> white = draw(renderer);
