@@ -47,6 +47,7 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
     if (revision_ && from_ == sources) co_return;
     revision_ = {};
     quarters_ = 0;
+    turning_ = false;
     fillTable(scene, wanted);
     const bool veils =
         wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
@@ -72,14 +73,15 @@ bool Lights::drawsAreaShadows() const {
 }
 
 base::Steps Lights::turnInSteps(const gl::Device& device, const scene::GpuScene& scene, int quarters) {
-    if (quarters == quarters_ || !drawsAreaShadows()) co_return;
-    quarters_ = -1;
-    fillTable(scene, from_.wanted);
-    for (auto light = table_.begin() + static_cast<std::ptrdiff_t>(ends_.z); light != table_.end(); ++light)
-        for (int i = 0; i < quarters; ++i) light->halfU = std::exchange(light->halfV, -light->halfU);
+    if ((quarters == quarters_ && !turning_) || !drawsAreaShadows()) co_return;
+    turning_ = true;
+    for (; quarters_ != quarters; quarters_ = (quarters_ + 1) % 4)
+        for (auto light = table_.begin() + static_cast<std::ptrdiff_t>(ends_.z); light != table_.end();
+             ++light)
+            light->halfU = std::exchange(light->halfV, -light->halfU);
     co_await drawShadows(device, scene, from_.wanted.settings, hasVeils());
     upload(scene.source());
-    quarters_ = quarters;
+    turning_ = false;
 }
 
 // Rays find what is in the voxels: where something else casts shadows, lamps need maps.

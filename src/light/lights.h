@@ -45,7 +45,7 @@ class Lights {
         updateInSteps(device, scene, wanted).finish();
     }
     base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene, LightsWanted wanted);
-    // Area lights are turned about their normals by quarters of a turn: as bright and as large, with sample points
+    // Area lights are turned about their normals by 0 to 3 quarters of a turn: as bright and as large, with sample points
     // elsewhere, and their shadow maps drawn anew. For views of a picture at rest, whose mean has the penumbra of all
     // points. Behind an update, which may turn them back. The revision stays, since faces keep their light. GL state
     // changed: as update.
@@ -124,7 +124,8 @@ class Lights {
         bool operator==(const Sources&) const = default;
     };
     Sources from_;
-    int quarters_ = 0;  // that area lights are turned by; -1: some of their maps
+    int quarters_ = 0;      // that area lights of the table are turned by, 0 to 3
+    bool turning_ = false;  // not all of their maps are
     base::Revision revision_;
 };
 
