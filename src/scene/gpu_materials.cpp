@@ -80,17 +80,6 @@ std::vector<glm::vec4> linearSurface(const Texture& texture) {
     return level;
 }
 
-// 2x2 box.
-std::vector<glm::vec4> halved(const std::vector<glm::vec4>& level, std::size_t edge) {
-    std::vector<glm::vec4> half(edge * edge / 4);
-    for (std::size_t y = 0; y < edge / 2; ++y)
-        for (std::size_t x = 0; x < edge / 2; ++x) {
-            const glm::vec4* t = &level[2 * y * edge + 2 * x];
-            half[y * (edge / 2) + x] = 0.25f * (t[0] + t[1] + t[edge] + t[edge + 1]);
-        }
-    return half;
-}
-
 // Stored sRGB-encoded, whatever the texture holds, in an sRGB format: 8 bits then err by less than 1 % above
 // 0.02 of full scale, and the hardware decodes before it filters. (Square roots that the shader squares were
 // tried: filtering between them darkened high-contrast textures by up to half.)
@@ -292,11 +281,12 @@ void SceneTextures::putForDrawing(std::size_t index, const Texture& texture, boo
 }
 
 void SceneTextures::uploadSurface(const Texture& source, int layer) {
-    std::vector<glm::vec4> level = linearSurface(source);
-    for (int mip = 0; mip < surfaceArray_.desc().levels; ++mip) {
-        surfaceArray_.uploadLayer(mip, layer, GL_RGBA, GL_UNSIGNED_BYTE, encodedSurface(level).data());
-        level = halved(level, static_cast<std::size_t>(surfaceArray_.width(mip)));
-    }
+    const std::vector<std::uint8_t> texels = encodedSurface(linearSurface(source));
+    surfaceArray_.uploadLayer(0, layer, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    const std::vector<MipLevel> levels = smallerLevels(texels, kSurfaceEdge, kSurfaceEdge, true);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        surfaceArray_.uploadLayer(static_cast<int>(i) + 1, layer, GL_RGBA, GL_UNSIGNED_BYTE,
+                                  levels[i].rgba.data());
 }
 
 void SceneTextures::declare(gl::Inputs& inputs) const {

@@ -114,11 +114,9 @@ std::vector<MipLevel> smallerLevels(const std::vector<std::uint8_t>& rgba, int w
     std::vector<MipLevel> levels;
     if (width <= 1 && height <= 1) return levels;
     LinearTexels level = halvedBytes(rgba, width, height, srgb);
-    levels.push_back(encoded(level, srgb));
-    while (level.width > 1 || level.height > 1) {
-        level = halvedLevel(level);
+    for (; level.width > 1 || level.height > 1; level = halvedLevel(level))
         levels.push_back(encoded(level, srgb));
-    }
+    levels.push_back(encoded(level, srgb));
     return levels;
 }
 
