@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/generated.h"
+#include "support/soft_shadow_rig.h"
 #include "support/traced_rig.h"
 #include "view/camera.h"
 
@@ -94,28 +95,11 @@ TEST_F(AntialiasingTest, DirectLightAndTheBackgroundAreAveragedInEveryMode) {
 // A slat across a panel lamp: its half shadow is as smooth as that of four times the sample points, since views turn the
 // lamp. So it is in a window at rest.
 TEST_F(AntialiasingTest, HalfShadowsHaveTheSamplePointsOfAllViews) {
-    Scene scene;
-    addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), diffuseMaterial(glm::vec3(0.5f)));
-    addInstance(scene, quadMesh({-1.5f, 0.9f, 0.1f}, {3, 0, -0.5f}, {0.02f, 0, 0.12f}),
+    Scene scene = plateScene(false);
+    addInstance(scene, quadMesh({0.3f, 0.75f, 0.9f}, {0.4f, 0, -1.8f}, {0.1f, 0, 0.02f}),
                 diffuseMaterial(glm::vec3(0.5f)));
-    Light panel;
-    panel.type = LightType::Rect;
-    panel.position = {0, 1.8f, 0};
-    panel.direction = {0, -1, 0};
-    panel.halfU = {0.6f, 0, 0};
-    panel.halfV = {0, 0, 0.6f};
-    panel.intensity = glm::vec3(5);
-    scene.lights = {panel};
-    Camera camera;
-    camera.eye = {0.2f, 3.2f, 2.2f};
-    camera.fovY = 0.75f;
-    scene.cameras = {camera};
-    reference::PathTracerSettings asked;
-    asked.samplesPerPixel = 1024;
-    asked.bounces = 0;
-    asked.filter = reference::PixelFilter::Box;
-    const Image truth =
-        reference::PathTracer(scene).render(camera, kTracedPixels, kTracedPixels, asked).direct;
+    scene.lights = {lampOf(0.6f)};
+    const Image truth = boxFilteredTruth(scene, 1024).direct;
     Settings settings = tracedSettings(Quality::Draft, Component::Direct);
     Renderer renderer;
     renderer.setScene(scene);
