@@ -45,6 +45,63 @@ float movedPart(const scene::GpuScene& scene, const scene::InstanceChange& chang
     return std::min(bend + move, 1.0f);
 }
 
+// Spheres from `begin` on, up to `end`, as one: round all of them, with what they are together seen from afar.
+struct Group {
+    std::size_t begin, end;
+    EditSphere sphere;
+};
+
+Group groupOf(const std::vector<EditSphere>& places, std::size_t begin, std::size_t end) {
+    Aabb box;
+    for (std::size_t i = begin; i < end; ++i) {
+        box.grow(places[i].center - places[i].radius);
+        box.grow(places[i].center + places[i].radius);
+    }
+    EditSphere round{box.center(), 0, 0};
+    for (std::size_t i = begin; i < end; ++i)
+        round.radius =
+            std::max(round.radius, glm::distance(round.center, places[i].center) + places[i].radius);
+    for (std::size_t i = begin; i < end; ++i) {
+        const float share = places[i].radius / round.radius;
+        round.part += share < 1 ? places[i].part * share * share : places[i].part;
+    }
+    round.part = std::min(round.part, 1.0f);
+    return {begin, end, end - begin == 1 ? places[begin] : round};
+}
+
+// Where to divide a group, whose places it puts in order: in the middle of where they are.
+std::size_t dividedAt(std::vector<EditSphere>& places, const Group& group) {
+    Aabb box;
+    for (std::size_t i = group.begin; i < group.end; ++i) box.grow(places[i].center);
+    const glm::vec3 extent = box.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
+    const float middle = box.center()[axis];
+    const auto first = places.begin() + static_cast<std::ptrdiff_t>(group.begin);
+    const auto last = places.begin() + static_cast<std::ptrdiff_t>(group.end);
+    const auto cut = std::stable_partition(
+        first, last, [&](const EditSphere& place) { return place.center[axis] < middle; });
+    const bool divides = cut != first && cut != last;  // not where all are in one point
+    return divides ? static_cast<std::size_t>(cut - places.begin()) : (group.begin + group.end) / 2;
+}
+
+// At most `most` in place of all: the largest group is divided until there are as many.
+std::vector<EditSphere> fewer(std::vector<EditSphere> places, std::size_t most) {
+    std::vector<Group> groups = {groupOf(places, 0, places.size())};
+    const auto size = [](const Group& group) {
+        return group.end - group.begin > 1 ? group.sphere.radius : -1.0f;
+    };
+    while (groups.size() < most) {
+        const auto largest = std::max_element(
+            groups.begin(), groups.end(), [&](const Group& a, const Group& b) { return size(a) < size(b); });
+        const std::size_t end = largest->end, cut = dividedAt(places, *largest);
+        *largest = groupOf(places, largest->begin, cut);
+        groups.push_back(groupOf(places, cut, end));
+    }
+    places.clear();
+    for (const Group& group : groups) places.push_back(group.sphere);
+    return places;
+}
+
 }  // namespace
 
 // Than that of the last look, for all faces.
@@ -61,7 +118,6 @@ EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
     sky_ = scene.skyRevision();
     const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
     auto change = changes.begin();
-    Aabb all;  // of all places
     entries_.resize(scene.instances().size());
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const bool placed = change != changes.end() && change->index == i;
@@ -75,13 +131,10 @@ EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
         box.grow(now.bounds);
         entry = now;
         if (box.empty()) continue;
-        all.grow(box);
-        if (places.size() > kMost) continue;
         places.push_back(sphereRound(box, part));
     }
     if (!local) return std::nullopt;
-    if (places.size() > kMost) places = {sphereRound(all)};
-    return places;
+    return places.size() > kMost ? fewer(std::move(places), kMost) : places;
 }
 
 }  // namespace conelight::light

@@ -32,7 +32,7 @@ void putPlaces(Constants& constants, const std::vector<EditSphere>& places) {
 
 class EditPlaces {
   public:
-    static constexpr std::size_t kMost = CHANGED_PLACES;  // more are taken together
+    static constexpr std::size_t kMost = CHANGED_PLACES;  // of more those near each other are one
 
     // Spheres round what came or went, and round where things moved or bent, by which part of their size. None: nothing to go
     // by, light may be another everywhere: at the first look, when lights, the sky or what emits changed, and for another

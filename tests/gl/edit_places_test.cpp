@@ -2,6 +2,8 @@
 // Where a scene has changed: what places there are, how large, and when there are none to go by.
 #include "light/edit_places.h"
 
+#include <algorithm>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/gl_fixture.h"
@@ -34,7 +36,7 @@ class EditPlacesTest : public GlTest {
         scene_->setInstance(index, moved);
     }
 
-    static constexpr std::size_t kBoxes = light::EditPlaces::kMost + 1;
+    static constexpr std::size_t kMost = light::EditPlaces::kMost, kBoxes = 3 * kMost;
     Scene source_;
     std::optional<scene::GpuScene> scene_;
     light::EditPlaces places_;
@@ -82,14 +84,39 @@ TEST_F(EditPlacesTest, SmallBendsAreSmallPlaces) {
     EXPECT_EQ(twice->front().part, 1);
 }
 
-TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
+// Each lies in a sphere of its neighbours, and from afar all are what they are one by one.
+TEST_F(EditPlacesTest, OfManyThoseNearEachOtherAreOne) {
     places_.look(*scene_);
-    for (std::size_t i = 0; i < light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
-    EXPECT_EQ(places_.look(*scene_)->size(), light::EditPlaces::kMost);
-    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, 0.1f, 0});
-    const auto all = places_.look(*scene_);
-    ASSERT_EQ(all->size(), 1u);
-    EXPECT_GT(all->front().radius, 6);
+    for (std::size_t i = 0; i < kMost; ++i) move(i, {0, 0.01f, 0});
+    const auto few = places_.look(*scene_);
+    ASSERT_TRUE(few && few->size() == kMost);
+    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, 0.01f, 0});
+    const auto many = places_.look(*scene_);
+    ASSERT_TRUE(many && many->size() == kMost);
+    const auto area = [](const light::EditSphere& place) { return place.part * place.radius * place.radius; };
+    double seen = 0;
+    for (const light::EditSphere& place : *many) {
+        seen += area(place);
+        EXPECT_LT(place.radius, 8);  // of 144 m in all
+    }
+    EXPECT_NEAR(seen, kBoxes * area(few->front()), 1e-3 * seen);
+    for (std::size_t i = 0; i < kBoxes; ++i)
+        EXPECT_TRUE(std::any_of(many->begin(), many->end(), [&](const light::EditSphere& place) {
+            const glm::vec3 apart = scene_->instanceBounds(i).center() - place.center;
+            return glm::length(apart) + few->front().radius <= place.radius + 0.02f;
+        })) << i;
+}
+
+// A crowd in one point, of which one goes away.
+TEST_F(EditPlacesTest, ThingsInOnePlaceAreTakenTogether) {
+    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {-3.0f * static_cast<float>(i), 0, 0});
+    places_.look(*scene_);
+    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, i == 5 ? 30 : 0.01f, 0});
+    const auto many = places_.look(*scene_);
+    ASSERT_TRUE(many && many->size() == kMost);
+    const auto whole = std::count_if(many->begin(), many->end(),
+                                     [](const light::EditSphere& place) { return place.radius > 5; });
+    EXPECT_EQ(whole, 1);
 }
 
 TEST_F(EditPlacesTest, LightsAndWhatEmitsChangeEverything) {
