@@ -36,7 +36,7 @@ layout(location = 0) in vec3 world;
 layout(location = 0) out vec4 color;
 void main() {
     vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
-    vec3 start = world + 0.3 * conelight_grid.voxelSize * normal;
+    vec3 start = world + 0.3 * conelight_voxelSize(world) * normal;
     vec3 toLamp = lamp - start;
     float met;
     conelight_trace(start, toLamp, met);

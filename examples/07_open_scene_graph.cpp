@@ -38,7 +38,7 @@ uniform vec3 lamp;
 in vec3 world, normal;
 out vec4 color;
 void main() {
-    vec3 n = normalize(normal), start = world + 0.5 * conelight_grid.voxelSize * n, toLamp = lamp - start;
+    vec3 n = normalize(normal), start = world + 0.5 * conelight_voxelSize(world) * n, toLamp = lamp - start;
     vec3 light = conelight_irradiance(world, n);
     float met;
     conelight_trace(start, toLamp, met);

@@ -233,7 +233,7 @@ CONELIGHT_API conelight_result conelight_light_field_gather(conelight_light_fiel
                                                             const conelight_surfaces* surfaces,
                                                             int32_t reduction, conelight_gathered* gathered);
 
-/* For shaders of the host: the text of conelight/light_field.glsl, which goes behind the line of #version. It reads 2 uniform
+/* For shaders of the host: the text of conelight/light_field.glsl, which goes behind the line of #version. It reads 3 uniform
  * blocks and 7 textures from these binding points on. The text is valid until the thread's next call of this. */
 CONELIGHT_API conelight_result conelight_lookups_glsl(int32_t first_block, int32_t first_texture,
                                                       const char** text);

@@ -8,10 +8,12 @@
 //   vec3 conelight_trace(vec3 origin, vec3 direction)
 //   vec3 conelight_trace(vec3 origin, vec3 direction, out float distance)
 //       Radiance that arrives along a ray, W/(sr m^2); how far it comes from, m, -1: from the surroundings. Rays
-//       from surfaces of the scene begin a tenth of conelight_grid.voxelSize before them.
+//       from surfaces of the scene begin a tenth of conelight_voxelSize before them.
+//   float conelight_voxelSize(vec3 position)
+//       Edge of the voxels about a point, m. Nested grids have one for each level, other fields one.
 //
 // World space, metres. Light that comes straight from the scene's lights is not in it, but what surfaces reflect of it
-// and what glows is. For #version 450 and any stage. Define the first binding point of 2 uniform blocks and the first of
+// and what glows is. For #version 450 and any stage. Define the first binding point of 3 uniform blocks and the first of
 // 7 texture units before, or leave them at 0; LightField::bindLookups binds them.
 #ifndef CONELIGHT_LIGHT_FIELD_GLSL
 #define CONELIGHT_LIGHT_FIELD_GLSL
@@ -79,6 +81,42 @@ struct conelight_VoxelGrid {
     uint pad0;
     uint pad1;
 };
+
+struct conelight_VoxelLevels {
+    uint count;
+    uint sizeX;
+    uint sizeY;
+    uint sizeZ;
+    vec4 levels[8];
+};
+
+layout(std140, binding = CONELIGHT_FIRST_BLOCK + 2) uniform conelight_VoxelLevelBlock {
+    conelight_VoxelLevels conelight_voxelLevels;
+};
+
+vec3 conelight_levelSize() {
+    return vec3(conelight_voxelLevels.sizeX, conelight_voxelLevels.sizeY, conelight_voxelLevels.sizeZ);
+}
+
+int conelight_coarsestLevel() { return int(conelight_voxelLevels.count) - 1; }
+
+vec4 conelight_levelPlace(int level) { return conelight_voxelLevels.levels[level]; }
+
+vec3 conelight_levelFromGrid(vec3 point, vec4 place) { return (point - place.xyz) / place.w; }
+
+int conelight_levelAt(vec3 point) {
+    int level = conelight_coarsestLevel();
+    int i = level - 1;
+    while (i >= 0) {
+        vec3 within = conelight_levelFromGrid(point, conelight_voxelLevels.levels[i]);
+        bool holds = all(greaterThanEqual(within, vec3(0.0))) && all(lessThan(within, conelight_levelSize()));
+        level = holds ? i : level;
+        --i;
+    }
+    return level;
+}
+
+float conelight_voxelEdgeAt(vec3 point) { return conelight_levelPlace(conelight_levelAt(point)).w; }
 
 layout(std140, binding = CONELIGHT_FIRST_BLOCK + 0) uniform conelight_VoxelGridBlock {
     conelight_VoxelGrid conelight_grid;
@@ -154,6 +192,8 @@ const float conelight_kRayTie = 0.5;
 
 const float conelight_kRayEnd = 1e-3;
 
+const float conelight_kRayNearReach = 1.0;
+
 const float conelight_kRayOtherSide = -0.1;
 
 const float conelight_kRayOtherNear = 0.5;
@@ -164,6 +204,86 @@ struct conelight_Ray {
     float tMax;
     vec3 startNormal;
 };
+
+vec3 conelight_rayInverse(vec3 direction) {
+    vec3 safe = mix(vec3(1.0), direction, greaterThan(abs(direction), vec3(1e-7)));
+    return mix(vec3(1e7), 1.0 / safe, greaterThan(abs(direction), vec3(1e-7)));
+}
+
+int conelight_levelBricksBefore = 0;
+
+vec4 conelight_levelOfRay = vec4(0.0, 0.0, 0.0, 1.0);
+
+struct conelight_LevelPath {
+    int level;
+    float edge;
+    float inverse;
+    float begin;
+    float end;
+    float exit;
+    int next;
+    bool outward;
+    bool goesOn;
+};
+
+vec2 conelight_levelSpan(conelight_Ray ray, vec3 inverse, int level) {
+    vec4 place = conelight_levelPlace(level);
+    vec3 a = (place.xyz - ray.origin) * inverse;
+    vec3 b = (place.xyz + place.w * conelight_levelSize() - ray.origin) * inverse;
+    vec3 low = min(a, b), high = max(a, b);
+    return vec2(max(max(low.x, low.y), low.z), min(min(high.x, high.y), high.z));
+}
+
+void conelight_endLevel(conelight_Ray ray, inout conelight_LevelPath path) {
+    vec3 inverse = conelight_rayInverse(ray.direction);
+    path.edge = conelight_levelPlace(path.level).w;
+    path.inverse = 1.0 / path.edge;
+    path.exit = conelight_levelSpan(ray, inverse, path.level).y;
+    vec2 finer = conelight_levelSpan(ray, inverse, max(path.level - 1, 0));
+    bool inward = !path.outward && path.level > 0 && finer.x < finer.y && finer.y > path.begin;
+    path.next = inward ? path.level - 1 : path.level + 1;
+    path.outward = !inward;
+    path.end = min(inward ? finer.x : path.exit - conelight_kRayEnd * path.edge, ray.tMax);
+    path.exit = inward ? finer.x : path.exit;
+    path.goesOn = path.exit < ray.tMax && path.next <= conelight_coarsestLevel();
+}
+
+conelight_LevelPath conelight_levelPath(conelight_Ray ray) {
+    conelight_LevelPath path;
+    path.level = conelight_levelAt(ray.origin);
+    path.outward = false;
+    vec2 whole = conelight_levelSpan(ray, conelight_rayInverse(ray.direction), conelight_coarsestLevel());
+    path.begin = max(whole.x, 0.0);
+    conelight_endLevel(ray, path);
+    bool met = whole.x < whole.y && whole.y > 0.0 && path.begin < ray.tMax;
+    path.end = met ? path.end : -3e38;
+    path.goesOn = met && path.goesOn;
+    return path;
+}
+
+conelight_Ray conelight_enterLevel(conelight_Ray ray, conelight_LevelPath path) {
+    conelight_levelOfRay = conelight_levelPlace(path.level);
+    conelight_levelBricksBefore = path.level * int(conelight_grid.bricksZ);
+    return conelight_Ray(conelight_levelFromGrid(ray.origin, conelight_levelOfRay), ray.direction,
+                         ray.tMax * path.inverse, ray.startNormal);
+}
+
+void conelight_leaveLevel(conelight_Ray ray, inout conelight_LevelPath path) {
+    path.level = path.next;
+    path.begin = max(path.begin, path.exit);
+    conelight_endLevel(ray, path);
+}
+
+struct conelight_VoxelBounds {
+    vec3 lowest, highest;
+    float margin;
+};
+
+conelight_VoxelBounds conelight_voxelBounds() {
+    vec4 place = conelight_levelPlace(conelight_coarsestLevel());
+    return conelight_VoxelBounds(place.xyz, place.xyz + place.w * conelight_levelSize(),
+                                 conelight_kRayEnd * place.w);
+}
 
 bool conelight_insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
     vec3 shrunk =
@@ -180,7 +300,8 @@ bool conelight_insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
 
 void conelight_testVoxelFaces(ivec3 voxel, conelight_Ray ray, uint facing, inout conelight_VoxelHit hit,
                               inout float hitCoverage) {
-    uvec4 word = texelFetch(conelight_voxelBricks, (voxel >> 2), 0);
+    uvec4 word =
+        texelFetch(conelight_voxelBricks, ((voxel >> 2) + ivec3(0, 0, conelight_levelBricksBefore)), 0);
     uint record =
         texelFetch(conelight_voxelRecords, int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))))
             .x;
@@ -240,7 +361,11 @@ const ivec3 conelight_kNoVoxel = ivec3(-1);
 void conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive,
                          inout conelight_OctantWalk walk) {
     ivec3 brick = walk.cell >> 2;
-    uvec2 word = texelFetch(conelight_voxelOctants, (ivec3(brick.x + mirrored.octantX, brick.yz)), 0).xy;
+    uvec2 word =
+        texelFetch(conelight_voxelOctants,
+                   ((ivec3(brick.x + mirrored.octantX, brick.yz)) + ivec3(0, 0, conelight_levelBricksBefore)),
+                   0)
+            .xy;
     bool empty = word.y == 0x9d2c5681u;
     bool occupied = !empty && conelight_brickHas(word, conelight_bitOfVoxel(walk.cell));
     uint half32 = (walk.cell.z & 2) != 0 ? word.y : word.x;
@@ -268,15 +393,11 @@ uint conelight_facingRay(bvec3 mirrored) {
     return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
 }
 
-conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
-    vec3 size = vec3(conelight_gridSize());
+conelight_VoxelHit conelight_traceLevel(conelight_Ray ray, vec2 span, float nearEnd) {
     ivec3 last = conelight_gridSize() - 1;
     conelight_OctantRay mirrored = conelight_octantRay(ray);
     uint facing = conelight_facingRay(mirrored.mirrored);
-    vec3 enter = -mirrored.origin * mirrored.inverse;
-    vec3 leave = (size - mirrored.origin) * mirrored.inverse;
-    float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
-    float tEnd = min(min(min(leave.x, leave.y), leave.z) - conelight_kRayEnd, ray.tMax);
+    float tEnter = span.x, tEnd = span.y;
     conelight_VoxelHit hit = conelight_VoxelHit(-1, ray.tMax);
     bool alive = tEnd > tEnter;
     float t = alive ? tEnter : 0.0;
@@ -288,6 +409,21 @@ conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
         ivec3 voxel = conelight_nextVoxel(ray, mirrored, alive, tEnd, walk);
         conelight_testVoxelFaces(voxel, ray, walk.left.x >= 0 ? facing : 0u, hit, hitCoverage);
     } while (hit.face < 0 && walk.t < tEnd);
+    return hit;
+}
+
+conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
+    conelight_LevelPath path = conelight_levelPath(ray);
+    float nearEnd = conelight_kRayNearReach * path.edge;
+    conelight_VoxelHit hit;
+    bool goesOn;
+    do {
+        vec2 span = vec2(path.begin, path.end) * path.inverse;
+        hit = conelight_traceLevel(conelight_enterLevel(ray, path), span, nearEnd * path.inverse);
+        goesOn = hit.face < 0 && path.goesOn;
+        if (goesOn) conelight_leaveLevel(ray, path);
+    } while (goesOn);
+    hit.t = hit.face < 0 ? ray.tMax : hit.t * path.edge;
     return hit;
 }
 
@@ -317,7 +453,9 @@ vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out coneli
     uint corners = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
-        uvec2 mask = texelFetch(conelight_voxelBricks, (voxel >> 2), 0).xy;
+        uvec2 mask =
+            texelFetch(conelight_voxelBricks, ((voxel >> 2) + ivec3(0, 0, conelight_levelBricksBefore)), 0)
+                .xy;
         corners |= conelight_brickHas(mask, conelight_bitOfVoxel(voxel)) ? 1u << i : 0u;
     }
     corners = wanted ? corners : 0u;
@@ -329,7 +467,8 @@ vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out coneli
         ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 voxel = clamp(base + offset, ivec3(0), last);
         vec3 t = mix(1.0 - part, part, vec3(offset));
-        uvec4 word = texelFetch(conelight_voxelBricks, (voxel >> 2), 0);
+        uvec4 word =
+            texelFetch(conelight_voxelBricks, ((voxel >> 2) + ivec3(0, 0, conelight_levelBricksBefore)), 0);
         uint record = texelFetch(conelight_voxelRecords,
                                  any ? int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))) : 0)
                           .x;
@@ -352,7 +491,17 @@ vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out coneli
 }
 
 vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out conelight_NormalSum bent) {
-    return conelight_irradianceInGrid(point, normal, wanted, bent);
+    int own = conelight_levelAt(point), attempts = conelight_coarsestLevel() > 0 ? 3 : 1;
+    vec4 found;
+    int attempt = 0;
+    do {
+        int level = clamp(own + (attempt == 2 ? -1 : attempt), 0, conelight_coarsestLevel());
+        conelight_levelOfRay = conelight_levelPlace(level);
+        conelight_levelBricksBefore = level * int(conelight_grid.bricksZ);
+        found = conelight_irradianceInGrid(conelight_levelFromGrid(point, conelight_levelOfRay), normal,
+                                           wanted, bent);
+    } while (wanted && found.a <= 0.0 && ++attempt < attempts);
+    return found;
 }
 
 vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
@@ -400,6 +549,10 @@ void conelight_tangentFrame(vec3 n, out vec3 u, out vec3 v) {
     v = vec3(b, s + n.y * n.y * a, -n.y);
 }
 
+float conelight_voxelSize(vec3 position) {
+    return conelight_grid.voxelSize * conelight_voxelEdgeAt(conelight_gridFromWorld(position));
+}
+
 vec3 conelight_trace(vec3 origin, vec3 direction, out float distance) {
     vec3 unit = conelight_normalize(direction);
     conelight_VoxelHit hit =
@@ -443,8 +596,8 @@ vec3 conelight_irradiance(vec3 position, vec3 normal) {
     bool sphere = conelight_dot(normal, normal) < 1e-12;
     vec3 axis = sphere ? vec3(0.0, 1.0, 0.0) : conelight_normalize(normal);
     vec3 point = conelight_gridFromWorld(position);
-    bool inGrid =
-        all(greaterThanEqual(point, vec3(0.0))) && all(lessThanEqual(point, vec3(conelight_gridSize())));
+    conelight_VoxelBounds bounds = conelight_voxelBounds();
+    bool inGrid = all(greaterThanEqual(point, bounds.lowest)) && all(lessThanEqual(point, bounds.highest));
     vec4 cached = conelight_cachedIrradiance(point, axis, inGrid && !sphere);
     return cached.a > 0.0 ? cached.rgb : conelight_openIrradiance(position, axis, sphere);
 }

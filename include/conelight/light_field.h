@@ -107,12 +107,13 @@ struct LightFieldStats {
 // Where shaders of the host that include conelight/light_field.glsl find what they read: so many binding points of
 // uniform blocks and texture units, from the first on.
 struct LookupSlots {
-    static constexpr int kBlocks = 2, kTextures = 7;
+    static constexpr int kBlocks = 3, kTextures = 7;
     int firstBlock = 0;
     int firstTexture = 0;
 };
 // The text of conelight/light_field.glsl for these slots; it goes behind the line of #version. Names begin with
-// conelight_: vec3 conelight_irradiance(vec3 position, vec3 normal), vec3 conelight_trace(vec3 origin, vec3 direction).
+// conelight_: vec3 conelight_irradiance(vec3 position, vec3 normal), vec3 conelight_trace(vec3 origin, vec3 direction),
+// float conelight_voxelSize(vec3 position). One text reads one grid and nested ones.
 CONELIGHT_API std::string lookupsGlsl(const LookupSlots& slots = {});
 
 // Settings for pictures that move: traced.budgeted is on. LightField reads the groups voxels, light, traced.
@@ -180,8 +181,8 @@ class CONELIGHT_API LightField {
 
     // For draw calls and dispatches of the host's whose shaders include conelight/light_field.glsl: binds what they
     // read, light as the last update() left it. The slots stay bound, the rest of the state as it was; after the
-    // next update() or setScene() bind again. Throws Error(Usage) before the first update(), for slots that the
-    // driver has not, and with nested grids, which lookups do not read.
+    // next update() or setScene() bind again. Throws Error(Usage) before the first update() and for slots that the
+    // driver has not.
     void bindLookups(const LookupSlots& slots = {}) const;
 
     // Timings per pass cost a glFinish each on software drivers, and a wait for the GPU in stats() elsewhere.

@@ -101,7 +101,7 @@ vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out NormalSum bent) 
 // In the level that holds the point. Where it has nothing there, the point lies on a border by rounding: the surface is
 // in the next coarser level, or the next finer one.
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out NormalSum bent) {
-    int own = levelAt(point);
+    int own = levelAt(point), attempts = coarsestLevel() > 0 ? 3 : 1;
     vec4 found;
     int attempt = 0;
     do {
@@ -109,7 +109,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out NormalSum bent) 
         levelOfRay = levelPlace(level);
         levelBricksBefore = level * int(grid.bricksZ);
         found = irradianceInGrid(levelFromGrid(point, levelOfRay), normal, wanted, bent);
-    } while (wanted && found.a <= 0.0 && ++attempt < 3);
+    } while (wanted && found.a <= 0.0 && ++attempt < attempts);
     return found;
 }
 #else

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Indirect light at any point and along any ray, for shaders of hosts. tools/make_lookups makes
 // include/conelight/light_field.glsl of this file and of what it includes: it says what hosts have to know.
-// Reads voxels::Voxels, light::LitVoxels and the sky of light::Lights.
+// Reads voxels::Voxels, light::LitVoxels and the sky of light::Lights. One text reads one grid and nested ones.
 #define ENVIRONMENT 1
+#define NESTED_GRIDS 1
 #include "lib/cache_lookup.glsl"
 #include "lib/dot.glsl"
 #include "lib/environment.glsl"
 #include "lib/lit_face.glsl"
 #include "lib/tangent_frame.glsl"
+
+// Edge of the voxels about a point, m.
+float conelight_voxelSize(vec3 position) { return grid.voxelSize * voxelEdgeAt(gridFromWorld(position)); }
 
 // What arrives from the surface that the ray meets, or from the surroundings, W/(sr m^2); `distance`: how far that
 // is, m, -1 for the surroundings. Irradiance of what is met is interpolated, as in mirrors of mode traced.
@@ -56,7 +60,8 @@ vec3 conelight_irradiance(vec3 position, vec3 normal) {
     bool sphere = dot(normal, normal) < 1e-12;
     vec3 axis = sphere ? vec3(0.0, 1.0, 0.0) : normalize(normal);
     vec3 point = gridFromWorld(position);
-    bool inGrid = all(greaterThanEqual(point, vec3(0.0))) && all(lessThanEqual(point, vec3(gridSize())));
+    VoxelBounds bounds = voxelBounds();
+    bool inGrid = all(greaterThanEqual(point, bounds.lowest)) && all(lessThanEqual(point, bounds.highest));
     vec4 cached = cachedIrradiance(point, axis, inGrid && !sphere);
     return cached.a > 0.0 ? cached.rgb : openIrradiance(position, axis, sphere);
 }

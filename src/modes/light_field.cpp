@@ -281,7 +281,7 @@ const LightFieldStats& LightField::stats() const {
 
 // As tools/make_lookups has them.
 namespace {
-constexpr gl::ResourceName kLookupBlocks[] = {"VoxelGridBlock", "LightingBlock"};
+constexpr gl::ResourceName kLookupBlocks[] = {"VoxelGridBlock", "LightingBlock", "VoxelLevelBlock"};
 constexpr gl::ResourceName kLookupTextures[] = {"voxelBricks",       "voxelOctants", "voxelRecords",
                                                 "voxelFaces",        "faceLight",    "litFaces",
                                                 "environmentPicture"};
@@ -298,11 +298,6 @@ std::string lookupsGlsl(const LookupSlots& slots) {
 void LightField::bindLookups(const LookupSlots& slots) const {
     if (!impl_->lit.revision())
         base::fail(ErrorKind::Usage, "bindLookups: there is no light yet; update before it would be right");
-    if (impl_->voxels.grid().levels > 1)
-        base::fail(ErrorKind::Usage,
-                   "bindLookups: the field has %d nested grids, and lookups read one; voxels.levels=1 would "
-                   "be right",
-                   impl_->voxels.grid().levels);
     gl::Inputs given;
     given.add(impl_->lights).add(impl_->voxels).add(impl_->lit);
     given.texture("voxelOctants", impl_->voxels.octants().texture());

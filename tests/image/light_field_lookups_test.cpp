@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <string>
 
 #include "conelight/error.h"
@@ -40,11 +41,22 @@ void main() {
 }
 )";
 
-class LightFieldLookups : public LightFieldRig {
+// With one grid, and with nested ones round a point, so that walls and boxes lie in all levels.
+class LightFieldLookups : public LightFieldRig, public testing::WithParamInterface<int> {
   protected:
+    static Settings settings();
+    // Of `levels` nested grids that lie in a corner of the room, whose walls and boxes are in both then; 1: one grid.
+    static Settings settingsWith(int levels);
     // A picture of what the function shown() of a host's shader says, on the surfaces of `host`.
     std::vector<glm::vec4> shown(const LightField& field, HostPicture& host, const std::string& function);
 };
+
+Settings LightFieldLookups::settings() {
+    Settings settings = hostSettings();
+    settings.voxels.levels = GetParam();
+    settings.voxels.anchor = VoxelAnchor::at({0.3f, -0.4f, 0.2f});
+    return settings;
+}
 
 GLuint linked(const std::string& fragment) {
     const GLuint program = glCreateProgram();
@@ -94,8 +106,8 @@ std::vector<glm::vec4> LightFieldLookups::shown(const LightField& field, HostPic
     return pixelsOf(picture.name());
 }
 
-TEST_F(LightFieldLookups, IrradianceIsThatOfTheLibrary) {
-    Settings settings = hostSettings();
+TEST_P(LightFieldLookups, IrradianceIsThatOfTheLibrary) {
+    Settings settings = LightFieldLookups::settings();
     settings.traced.pixelRays = 0;
     LightField field;
     field.setScene(scene_);
@@ -112,8 +124,8 @@ TEST_F(LightFieldLookups, IrradianceIsThatOfTheLibrary) {
 
 // Mirrors all over, whose rays meet faces as the lookups' rays do. Rays of both differ by rounding and by the least
 // lobe that the library gives a mirror: few meet another face then.
-TEST_F(LightFieldLookups, RaysShowWhatMirrorsShow) {
-    Settings settings = hostSettings();
+TEST_P(LightFieldLookups, RaysShowWhatMirrorsShow) {
+    Settings settings = LightFieldLookups::settings();
     settings.traced.exactHits = settings.traced.exactMirrors = false;
     settings.traced.filterLevels = 0;
     scene_.materials[kHostMetal] = scene_.materials.back();
@@ -133,7 +145,7 @@ TEST_F(LightFieldLookups, RaysShowWhatMirrorsShow) {
     const std::vector<glm::vec4> expected = pixelsOf(field.gather(field.addView(), host.surfaces()).specular);
     const std::vector<glm::vec4> image = shown(field, host, R"(
 vec4 shown() {
-    vec3 origin = position + 0.05 * conelight_grid.voxelSize * (normal + toEye);
+    vec3 origin = position + 0.05 * conelight_voxelSize(position) * (normal + toEye);
     return vec4(conelight_trace(origin, reflect(-toEye, normal)), 1);
 })");
     std::size_t others = 0;
@@ -151,10 +163,10 @@ vec4 shown() {
 }
 
 // A ray from the eye goes as far as the host's own picture says: half a voxel of 8 cm at most on the mean.
-TEST_F(LightFieldLookups, RaysGoAsFarAsThePictureIsDeep) {
+TEST_P(LightFieldLookups, RaysGoAsFarAsThePictureIsDeep) {
     LightField field;
     field.setScene(scene_);
-    field.setSettings(hostSettings());
+    field.setSettings(settings());
     field.update();
     HostPicture host(scene_, lens());
     drawn(host);
@@ -167,11 +179,31 @@ vec4 shown() {
     EXPECT_LT(hostMean(image), 0.02);
 }
 
+// Walls and boxes lie in all levels, each of which has voxels of twice the size of the one before.
+TEST_P(LightFieldLookups, VoxelsAreAsLargeAsTheirLevelHasThem) {
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(settings());
+    field.update();
+    HostPicture host(scene_, lens());
+    drawn(host);
+    std::map<float, std::size_t> pixels;
+    for (const glm::vec4& pixel :
+         shown(field, host, "vec4 shown() { return vec4(conelight_voxelSize(position)); }"))
+        if (pixel.r > 0) ++pixels[pixel.r];
+    ASSERT_EQ(pixels.size(), static_cast<std::size_t>(GetParam()));
+    for (const auto& [edge, count] : pixels) {
+        EXPECT_GT(count, 20u) << edge;
+        EXPECT_FLOAT_EQ(std::exp2(std::round(std::log2(edge / pixels.begin()->first))),
+                        edge / pixels.begin()->first);
+    }
+}
+
 // Where all light is 1 it is 1 in the air as well, from all sides and from one. A ray in a thousand finds a gap between
 // faces: 1 % of the pixels have one among theirs.
-TEST_F(LightFieldLookups, DustIsLitByRays) {
+TEST_P(LightFieldLookups, DustIsLitByRays) {
     scene_ = closedBox(diffuseMaterial(glm::vec3(0.6f), glm::vec3(0.4f)));
-    Settings settings = hostSettings();
+    Settings settings = LightFieldLookups::settings();
     settings.traced.cacheUpdates = 64;
     LightField field;
     field.setScene(scene_);
@@ -190,11 +222,11 @@ TEST_F(LightFieldLookups, DustIsLitByRays) {
     }
 }
 
-TEST_F(LightFieldLookups, SaysWhatIsWrong) {
+TEST_P(LightFieldLookups, SaysWhatIsWrong) {
     LightField field;
     EXPECT_THROW(field.bindLookups(), Error);
     field.setScene(scene_);
-    field.setSettings(hostSettings());
+    field.setSettings(settings());
     field.update();
     EXPECT_THROW(field.bindLookups({.firstBlock = -1}), Error);
     EXPECT_THROW(field.bindLookups({.firstTexture = 100000}), Error);
@@ -202,6 +234,8 @@ TEST_F(LightFieldLookups, SaysWhatIsWrong) {
     field.bindLookups();
     field.update();  // leaves the host's slots alone, which are ours now
 }
+
+INSTANTIATE_TEST_SUITE_P(Levels, LightFieldLookups, testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace conelight::test

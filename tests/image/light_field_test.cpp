@@ -76,20 +76,11 @@ TEST_F(LightFieldTest, HasNestedGridsRoundAnAnchor) {
     const GatheredLight light = field.gather(field.addView(), host.surfaces());
     EXPECT_LT(hostDifference(pixelsOf(light.diffuse), truth(settings, Component::Diffuse), onMetal(false)),
               1e-3);
-    try {
-        field.bindLookups();
-        ADD_FAILURE() << "bound";
-    } catch (const Error& error) {
-        EXPECT_STREQ(error.what(),
-                     "bindLookups: the field has 2 nested grids, and lookups read one; voxels.levels=1 would "
-                     "be right");
-    }
     // One grid again.
     settings.voxels.anchor = {};
     field.setSettings(settings);
     field.update();
     EXPECT_EQ(field.stats().faces, oneGrid);
-    field.bindLookups();
 }
 
 // Matrices of other kinds see the same: reversed and infinite depth in [0,1]; normals of triangles from depths.
