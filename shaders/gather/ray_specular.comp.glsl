@@ -170,15 +170,12 @@ float aimedInverseFlux(Brdf b, bool glossy) {
 
 // What the pixel would show if it were diffuse and white; 0 where the cache knows nothing.
 float diffuseBrightness(Surface s, bool wanted) {
-#if AIMED_RAYS
     return brightness(cachedIrradiance(gridFromWorld(s.position), s.geometricNormal, wanted).rgb);
-#else
-    return 0.0;
-#endif
 }
 
 // Of what a ray of a wide lobe brings, the part by which it moves the mean no more than all light that the surface gets
-// would (light/firefly_clamp.h). Where a lobe and the aimed rays both are thin, one ray in thousands brings a lamp's rim.
+// would (light/firefly_clamp.h). Where a lobe and the aimed rays both are thin, one ray in thousands brings a lamp's rim, or
+// a lamp's highlight in other metal.
 float clampedShare(Brdf b, Surface s, LobeRay drawn, vec3 brought, float ofDiffuse) {
     float gain = max(kPi * lobePdf(b, s.normal, s.toEye, drawn.ray.direction), 1.0);
     float most = pixelRays.fireflyClamp * gain * ofDiffuse;
@@ -234,7 +231,7 @@ void main() {
     uint shift = pixelShift(uvec2(pixel), seed);
     float inverseFlux = aimedInverseFlux(b, glossy);
     bool aims = inverseFlux > 0.0;
-    float ofDiffuse = diffuseBrightness(s, aims);
+    float ofDiffuse = diffuseBrightness(s, glossy && b.alpha >= kNarrowLobe);
     int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
@@ -254,7 +251,7 @@ void main() {
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
         vec3 weight = drawn.weight * (aims ? techniqueShare(s, b, drawn, hit, inverseFlux) : 1.0);
-        if (aims) weight *= clampedShare(b, s, drawn, weight * radiance, ofDiffuse);
+        weight *= clampedShare(b, s, drawn, weight * radiance, ofDiffuse);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

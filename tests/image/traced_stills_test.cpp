@@ -69,6 +69,24 @@ TEST_F(TracedStillsTest, RimsOfBulbsThrowNoDotsOnTools) {
     EXPECT_LE(dots, 1);
 }
 
+// The bulb is a light. Few rays from a tool meet its highlight on the bench, which is steel: none of them may show.
+TEST_F(TracedStillsTest, HighlightsOfBulbsThrowNoDotsOnTools) {
+    const Scene scene = io::generateScene("workshop");
+    Settings settings = convergedSettings(128);
+    applyQuality(settings.traced, Quality::Interactive);
+    settings.traced.cacheUpdates = 10;
+    const Image image = drawn(scene, 120, 90, settings);
+    const double mean = meanOf(image), least = 4 * mean;
+    double ofDots = 0;
+    dotsIn(image, [&](double own, const std::array<float, 9>& around) {
+        const bool isDot = own > 2.5 * static_cast<double>(around[7]) && own > least;
+        if (isDot) ofDots += own / mean;
+        return isDot;
+    });
+    RecordProperty("dots", std::to_string(ofDots));
+    EXPECT_LT(ofDots, 160);  // 218 where aimed rays alone are bounded
+}
+
 // Light of the sky falls through two skylights, which few cosine-sampled rays find. Rays are guided there, and the mean of
 // many is the same.
 TEST_F(TracedStillsTest, RoomsFindTheirSkylights) {
