@@ -48,6 +48,7 @@ void main() {
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     bool diffuse = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
+    RECORD_PATHS(diffuse);
     // Pixels without need of it send rays out of the grid, which end at once.
     const vec3 away = vec3(-1.0, 0.0, 0.0);
     vec3 normal = diffuse ? s.normal : away;

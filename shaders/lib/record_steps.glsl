@@ -15,6 +15,8 @@ record;
 #define INVOCATION_PIXEL (ivec2(record.header.pixelX, record.header.pixelY) + ivec2(gl_GlobalInvocationID.xy))
 
 bool recording() { return all(equal(gl_GlobalInvocationID, uvec3(0u))); }
+// Whether paths are. Not those of a pixel whose rays are sent where they meet nothing, as it has no need of them.
+bool pathsCount = true;
 
 void recordSurface(bool seen, vec3 position, vec3 normal, float depth) {
     if (!recording()) return;
@@ -26,7 +28,7 @@ void recordSurface(bool seen, vec3 position, vec3 normal, float depth) {
 
 // Steps belong to the path that is recorded next.
 void recordStep(RecordedStep recorded) {
-    if (!recording()) return;
+    if (!recording() || !pathsCount) return;
     uint index = record.header.steps++;
     if (index >= RECORD_MAX_STEPS) return;
     record.steps[index] = recorded;
@@ -48,7 +50,7 @@ RecordedPath conePath(RecordedPath path, float tanHalf, float opacity, uint end)
 
 // Returns the path's index; RECORD_MAX_PATHS when it is not kept.
 uint recordPath(RecordedPath path) {
-    if (!recording()) return RECORD_MAX_PATHS;
+    if (!recording() || !pathsCount) return RECORD_MAX_PATHS;
     path.firstStep = record.header.pathSteps;
     path.stepCount = record.header.steps - path.firstStep;
     path.weight *= record.header.share;
@@ -72,6 +74,7 @@ void recordPart(int part, vec3 value, vec3 scale) {
     record.parts[part].used = 1u;
 }
 
+#define RECORD_PATHS(count) pathsCount = (count)
 #define RECORD_SURFACE(seen, s) recordSurface(seen, (s).position, (s).normal, (s).depth)
 #define RECORD_STEP(kind, position, distance, size, level, radiance, opacity, total) \
     recordStep(RecordedStep(position, size, radiance, opacity, distance, level, total, kind))
@@ -81,6 +84,7 @@ void recordPart(int part, vec3 value, vec3 scale) {
 #define RECORD_PART(part, value, scale) recordPart(part, value, scale)
 #else
 #define INVOCATION_PIXEL ivec2(gl_GlobalInvocationID.xy)
+#define RECORD_PATHS(count)
 #define RECORD_SURFACE(seen, s)
 #define RECORD_STEP(kind, position, distance, size, level, radiance, opacity, total)
 #define RECORD_PATH(kind, origin, direction, tanHalf, weight, radiance, opacity, distance, end)

@@ -212,6 +212,26 @@ TEST_F(InspectTest, RaysEndAtTheWalls) {
     EXPECT_GE(rays, 4);
 }
 
+// Metal gathers no diffuse light, so no such rays are told.
+TEST_F(InspectTest, MetalsHaveRaysIntoTheirLobeAlone) {
+    Renderer renderer;
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    for (Material& material : scene.materials) {
+        material.metallic = 1;
+        material.roughness = 0.3f;
+    }
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.at(0), kPixels, kPixels, settingsOf(Mode::Traced, Component::Full));
+    const PixelInspection pixel = renderer.inspectPixel(20, 20);
+    int intoLobe = 0;
+    for (const InspectedPath& path : pixel.paths) {
+        EXPECT_NE(path.kind, PathKind::CosineRay);
+        EXPECT_NE(path.kind, PathKind::LightRay);
+        intoLobe += path.kind == PathKind::SpecularRay ? 1 : 0;
+    }
+    EXPECT_GE(intoLobe, 4);
+}
+
 TEST_F(InspectTest, OtherComponentsAndModesAnswerToo) {
     const Scene scene = roomWithGloss();
     Renderer renderer;
