@@ -231,7 +231,6 @@ void main() {
     uint shift = pixelShift(uvec2(pixel), seed);
     float inverseFlux = aimedInverseFlux(b, glossy);
     bool aims = inverseFlux > 0.0;
-    float ofDiffuse = diffuseBrightness(s, glossy && b.alpha >= kNarrowLobe);
     int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
@@ -251,6 +250,8 @@ void main() {
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
         vec3 weight = drawn.weight * (aims ? techniqueShare(s, b, drawn, hit, inverseFlux) : 1.0);
+        // Behind the walk, whose registers it can have.
+        float ofDiffuse = diffuseBrightness(s, counts && b.alpha >= kNarrowLobe);
         weight *= clampedShare(b, s, drawn, weight * radiance, ofDiffuse);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
