@@ -31,13 +31,16 @@ class LightFieldChanges : public LightFieldRig {
         scene.instances.pop_back();
         return scene;
     }
+    // Of moving pictures, with all updates of the room.
+    void settle(LightField& field, Settings settings) const {
+        settings.traced.budgeted = true;
+        field.setScene(scene_);
+        field.setSettings(settings);
+        while (field.update() < settings.traced.cacheUpdates) continue;
+    }
     // The last box goes on by a fiftieth of the room a frame, with one update each, in light that had settled.
     Scene moveBox(LightField& field, const Settings& settings) const {
-        Settings moving = settings;
-        moving.traced.budgeted = true;
-        field.setScene(scene_);
-        field.setSettings(moving);
-        while (field.update() < settings.traced.cacheUpdates) continue;
+        settle(field, settings);
         Scene scene = scene_;
         for (int frame = 0; frame < 8; ++frame) {
             scene.instances.back().worldFromObject[3].x -= 0.04f;
@@ -84,9 +87,7 @@ TEST_F(LightFieldChanges, SettledLightStays) {
     const std::vector<glm::vec4> settled = freshly(scene_, settings, host);
     settings.traced.budgeted = true;
     LightField field;
-    field.setScene(scene_);
-    field.setSettings(settings);
-    while (field.update() < settings.traced.cacheUpdates) continue;
+    settle(field, settings);
     Instance small = scene_.instances.back();
     small.worldFromObject =
         glm::translate(glm::mat4(1), {0.8f, -0.9f, -0.8f}) * glm::scale(glm::mat4(1), glm::vec3(0.05f));
@@ -134,11 +135,8 @@ TEST_F(LightFieldChanges, LightStaysWhereCrowdsAreNot) {
     HostPicture host(scene_, lens());
     drawn(host);
     const std::vector<glm::vec4> settled = freshly(scene_, settings, host);
-    settings.traced.budgeted = true;
     LightField field;
-    field.setScene(scene_);
-    field.setSettings(settings);
-    while (field.update() < settings.traced.cacheUpdates) continue;
+    settle(field, settings);
     for (int frame = 1; frame <= 8; ++frame) {
         for (int i = 0; i < 40; ++i) {
             small.worldFromObject = placed(i, 0.01f * static_cast<float>(frame % 2));
