@@ -62,7 +62,7 @@ Group groupOf(const std::vector<EditSphere>& places, std::size_t begin, std::siz
         round.radius =
             std::max(round.radius, glm::distance(round.center, places[i].center) + places[i].radius);
     for (std::size_t i = begin; i < end; ++i) {
-        const float share = places[i].radius / round.radius;
+        const float share = places[i].radius / round.radius;  // not a number where all are points
         round.part += share < 1 ? places[i].part * share * share : places[i].part;
     }
     round.part = std::min(round.part, 1.0f);

@@ -45,8 +45,6 @@ void main() {
 class LightFieldLookups : public LightFieldRig, public testing::WithParamInterface<int> {
   protected:
     static Settings settings();
-    // Of `levels` nested grids that lie in a corner of the room, whose walls and boxes are in both then; 1: one grid.
-    static Settings settingsWith(int levels);
     // A picture of what the function shown() of a host's shader says, on the surfaces of `host`.
     std::vector<glm::vec4> shown(const LightField& field, HostPicture& host, const std::string& function);
 };
