@@ -85,6 +85,7 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    float longest = longestMeanAt(s.position);
-    imageStore(result, pixel, withPass(pixel, s, seen, diffuse ? value : vec3(0.0), longest));
+    SoFar soFar = valueSoFar(pixel, s);
+    float longest = longestMeanAt(s.position, soFar.value.rgb);
+    imageStore(result, pixel, withPass(soFar, s, seen, diffuse ? value : vec3(0.0), longest));
 }

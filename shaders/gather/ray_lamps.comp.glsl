@@ -36,5 +36,6 @@ void main() {
     addLookups(LOOKUPS_OCCLUSION, seen);
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, withPass(pixel, s, seen, seen ? value : vec3(0.0), pixelRays.shortestMean));
+    imageStore(result, pixel,
+               withPass(valueSoFar(pixel, s), s, seen, seen ? value : vec3(0.0), pixelRays.shortestMean));
 }

@@ -209,11 +209,11 @@ void setRayCone(Surface s, Brdf b) {
 
 // How many passes are averaged. What a smooth surface shows moves otherwise than the surface: means are short where it or
 // the eye moves.
-float longestMean(ivec2 pixel, Surface s, Brdf b) {
+float longestMean(ivec2 pixel, Surface s, Brdf b, vec3 mean) {
     vec3 axis = 2.0 * dot(s.normal, s.toEye) * s.normal - s.toEye;
     float ofLobe =
         reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02)) : 1.0;
-    return mix(ofLobe, longestMeanAt(s.position), smoothstep(0.1, 0.5, s.roughness));
+    return mix(ofLobe, longestMeanAt(s.position, mean), smoothstep(0.1, 0.5, s.roughness));
 }
 
 void main() {
@@ -271,5 +271,7 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, withPass(pixel, s, seen, value, longestMean(pixel, s, b)));
+    SoFar soFar = valueSoFar(pixel, s);
+    float longest = longestMean(pixel, s, b, soFar.value.rgb);
+    imageStore(result, pixel, withPass(soFar, s, seen, value, longest));
 }

@@ -12,7 +12,7 @@
 #error MOTION must be 0, 1 or 2
 #endif
 #include "lib/dot.glsl"
-#include "lib/edit_spheres.glsl"
+#include "lib/edits.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
@@ -125,27 +125,34 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     return SoFar(scale * sum.value, scale * sum.variance);
 }
 
-// Passes that a mean is of at most at `position`: the fewer, the nearer to what changed.
-float longestMeanAt(vec3 position) {
+// Passes that a mean is of at most at `position`, where it is `mean`: the fewer, the nearer to what changed.
+float longestMeanAt(vec3 position, vec3 mean) {
     float changed = 1e-6;
     for (uint i = 0u; i < pixelRays.placeCount; ++i) {
-        uint at = editSphere(i);
+        uint at = editPlace(i);
         changed += changedPart(position, pixelRays.places[at], pixelRays.placeParts[at >> 2][at & 3u]);
     }
+    float irradiance = pixelRays.editedEverywhere;
+    for (uint i = 0u; i < pixelRays.lightEdits; ++i) {
+        uint at = editPlace(i);
+        irradiance += changedIrradiance(position, pixelRays.editedLights[at], pixelRays.editedAxes[at],
+                                        pixelRays.editedReaches[at >> 2][at & 3u]);
+    }
+    changed += partOfIrradiance(irradiance, mean);
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestMean, pixelRays.longestMean);
 }
 
-// The same of what a smooth surface shows about `axis`: the fewer, the more of what changed is there.
+// The same of what a smooth surface shows about `axis`: the fewer, the more of what changed is there. What a light shines
+// on may be anywhere.
 float longestLobeMean(vec3 position, vec3 axis, float spread) {
-    float changed = 1e-6;
+    float changed = pixelRays.lightEdits > 0u || pixelRays.editedEverywhere > 0.0 ? 1.0 : 1e-6;
     for (uint i = 0u; i < pixelRays.placeCount; ++i)
-        changed += changedInLobe(position, axis, spread, pixelRays.places[editSphere(i)]);
+        changed += changedInLobe(position, axis, spread, pixelRays.places[editPlace(i)]);
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestLobeMean, pixelRays.longestMean);
 }
 
 // The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.
-uvec4 withPass(ivec2 pixel, Surface s, bool seen, vec3 value, float longest) {
-    SoFar soFar = valueSoFar(pixel, s);
+uvec4 withPass(SoFar soFar, Surface s, bool seen, vec3 value, float longest) {
     float count = min(floor(soFar.value.a), longest - 1.0) + 1.0;
     vec3 mean = mix(soFar.value.rgb, value, 1.0 / count);
     // Welford 1962, "Note on a Method for Calculating Corrected Sums of Squares and Products".

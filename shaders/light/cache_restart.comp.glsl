@@ -3,18 +3,25 @@
 // After a change of light: of how many updates the mean of each face counts as. What was there is replaced by the next
 // updates, but is good until then. Behind cache_commit, which reads what faces share.
 layout(local_size_x = 64) in;
-#include "lib/edit_spheres.glsl"
+#include "lib/edits.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer voxelFaces;
 
 // The updates that count of those that a face has had, after a change: 1 near it, where the next update replaces what was
 // there.
-uint updatesKept(uint updates, vec3 position) {
+uint updatesKept(uint updates, vec3 position, vec3 radiance) {
     float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
     for (uint i = 0u; i < cache.placeCount; ++i) {
-        uint at = editSphere(i);
+        uint at = editPlace(i);
         changed += changedPart(position, cache.places[at], cache.placeParts[at >> 2][at & 3u]);
     }
+    float irradiance = cache.editedEverywhere;
+    for (uint i = 0u; i < cache.lightEdits; ++i) {
+        uint at = editPlace(i);
+        irradiance += changedIrradiance(position, cache.editedLights[at], cache.editedAxes[at],
+                                        cache.editedReaches[at >> 2][at & 3u]);
+    }
+    changed += partOfIrradiance(irradiance, radiance);
     float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
     return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);
@@ -32,5 +39,6 @@ void main() {
     vec3 voxel = vec3(unpackVoxel(texelFetch(voxelFaces, int(face)).w));
     vec3 position = grid.origin + grid.voxelSize * (voxel + 0.5);
 #endif
-    states[face].counts = (counts & 0xffff0000u) | updatesKept(counts & CACHE_UPDATES_MASK, position);
+    states[face].counts = (counts & 0xffff0000u) |
+                          updatesKept(counts & CACHE_UPDATES_MASK, position, states[face].irradiance);
 }

@@ -62,7 +62,7 @@
 #define IRRADIANCE_FAR_WEIGHT 0.125
 // The noise of a face's update, over its mean, that weights after a change are the best for.
 #define IRRADIANCE_NOISE 0.7
-// Of what changed last so many places are known.
+// Of what changed last so many places are known, and so many lights.
 #define CHANGED_PLACES 16u
 #define CHANGED_FOURS 4u  // fours of them
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.
@@ -140,7 +140,15 @@ struct CacheConstants {
     // ---- 48 B
     vec4 places[CHANGED_PLACES];     // of changes, world space; w: radius, m
     vec4 placeParts[CHANGED_FOURS];  // of their cross-sections, how much changed, [0,1]
-};                                   // 368 B
+    // ---- 368 B: light::EditList
+    uint lightEdits;
+    float editedEverywhere;  // W/m^2
+    uint pad0;
+    uint pad1;
+    vec4 editedLights[CHANGED_PLACES];  // world space; w: flux, W
+    vec4 editedAxes[CHANGED_PLACES];    // w: radius, m
+    vec4 editedReaches[CHANGED_FOURS];  // m
+};                                      // 960 B
 
 // The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
 struct CacheBalance {
@@ -202,7 +210,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 368);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 960);
 static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
 static_assert(sizeof(conelight::gpu::CacheBalancing) == 32);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);

@@ -55,13 +55,21 @@ struct PixelRayConstants {
     float shortestMean;      // passes that are averaged at most, at `places`
     float shortestLobeMean;  // of what smooth surfaces show of `places`
     uint placeCount;
-    uint pad0;
+    uint lightEdits;
     // ---- 192 B
     vec4 places[CHANGED_PLACES];     // of what changed last, as in CacheConstants
     vec4 placeParts[CHANGED_FOURS];  // as there
-};                                   // 512 B
+    // ---- 512 B
+    float editedEverywhere;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+    vec4 editedLights[CHANGED_PLACES];
+    vec4 editedAxes[CHANGED_PLACES];
+    vec4 editedReaches[CHANGED_FOURS];
+};  // 1104 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 512);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 1104);
 #endif

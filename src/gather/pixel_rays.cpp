@@ -38,16 +38,16 @@ const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered
                               "gathered lamps"};
 
 // How many passes lib/temporal.glsl averages, far from what `changed` and there. Where that may be anywhere, few everywhere.
-void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed) {
+void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::SceneEdits& changed) {
     const int longest = std::max(pass.longest, 1);
     const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
     constants.longestMean = static_cast<float>(changed ? longest : shortest);
     constants.shortestMean = static_cast<float>(shortest);
-    constants.shortestLobeMean = changed && pass.shortestOfLobes > 0
+    constants.shortestLobeMean = changed && !changed->ofLight() && pass.shortestOfLobes > 0
                                      ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
                                      : constants.shortestMean;
     if (!changed) return;
-    light::putPlaces(constants, *changed);
+    light::putEdits(constants, *changed);
 }
 
 }  // namespace

@@ -3,16 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <utility>
+
+#include "light/edit_groups.h"
 
 namespace conelight::light {
 namespace {
 
-bool emits(const scene::GpuScene& scene, std::size_t index) {
-    const gpu::Material& material = scene.materials()[scene.instances()[index].material];
-    return material.emission != glm::vec3(0) || (material.flags & MATERIAL_UNLIT) != 0;
+// Where more of a scene's light is another, updates begin anew everywhere: what they gather soon tells how bright all is.
+constexpr float kMostOfLight = 0.5f;
+
+const gpu::Material& materialOf(const scene::GpuScene& scene, std::size_t index) {
+    return scene.materials()[scene.instances()[index].material];
 }
 
-EditSphere sphereRound(const Aabb& box, float part = 1) {
+EditSphere sphereOf(const Aabb& box, float part = 1) {
     return {box.center(), 0.5f * glm::length(box.extent()), part};
 }
 
@@ -45,96 +51,124 @@ float movedPart(const scene::GpuScene& scene, const scene::InstanceChange& chang
     return std::min(bend + move, 1.0f);
 }
 
-// Spheres from `begin` on, up to `end`, as one: round all of them, with what they are together seen from afar.
-struct Group {
-    std::size_t begin, end;
-    EditSphere sphere;
-};
-
-Group groupOf(const std::vector<EditSphere>& places, std::size_t begin, std::size_t end) {
-    Aabb box;
+// In place of those from `begin` on, up to `end`: round all of them, with what they are together seen from afar.
+EditSphere spheresTogether(const Places<EditSphere>& places, std::size_t begin, std::size_t end) {
+    const auto [center, radius] = sphereRound(places, begin, end);
+    EditSphere round{center, radius, 0};
     for (std::size_t i = begin; i < end; ++i) {
-        box.grow(places[i].center - places[i].radius);
-        box.grow(places[i].center + places[i].radius);
-    }
-    EditSphere round{box.center(), 0, 0};
-    for (std::size_t i = begin; i < end; ++i)
-        round.radius =
-            std::max(round.radius, glm::distance(round.center, places[i].center) + places[i].radius);
-    for (std::size_t i = begin; i < end; ++i) {
-        const float share = places[i].radius / round.radius;  // not a number where all are points
+        const float share = places[i].radius / radius;  // not a number where all are points
         round.part += share < 1 ? places[i].part * share * share : places[i].part;
     }
     round.part = std::min(round.part, 1.0f);
-    return {begin, end, end - begin == 1 ? places[begin] : round};
+    return round;
 }
 
-// Where to divide a group, whose places it puts in order: in the middle of where they are.
-std::size_t dividedAt(std::vector<EditSphere>& places, const Group& group) {
-    Aabb box;
-    for (std::size_t i = group.begin; i < group.end; ++i) box.grow(places[i].center);
-    const glm::vec3 extent = box.extent();
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    const float middle = box.center()[axis];
-    const auto first = places.begin() + static_cast<std::ptrdiff_t>(group.begin);
-    const auto last = places.begin() + static_cast<std::ptrdiff_t>(group.end);
-    const auto cut = std::stable_partition(
-        first, last, [&](const EditSphere& place) { return place.center[axis] < middle; });
-    const bool divides = cut != first && cut != last;  // not where all are in one point
-    return divides ? static_cast<std::size_t>(cut - places.begin()) : (group.begin + group.end) / 2;
-}
-
-// At most `most` in place of all: the largest group is divided until there are as many.
-std::vector<EditSphere> fewer(std::vector<EditSphere> places, std::size_t most) {
-    std::vector<Group> groups = {groupOf(places, 0, places.size())};
-    const auto size = [](const Group& group) {
-        return group.end - group.begin > 1 ? group.sphere.radius : -1.0f;
-    };
-    while (groups.size() < most) {
-        const auto largest = std::max_element(
-            groups.begin(), groups.end(), [&](const Group& a, const Group& b) { return size(a) < size(b); });
-        const std::size_t end = largest->end, cut = dividedAt(places, *largest);
-        *largest = groupOf(places, largest->begin, cut);
-        groups.push_back(groupOf(places, cut, end));
+LightEdit lightsTogether(const Places<LightEdit>& lights, std::size_t begin, std::size_t end) {
+    const auto [center, radius] = sphereRound(lights, begin, end);
+    LightEdit all{.center = center, .radius = radius, .reach = 0};
+    for (std::size_t i = begin; i < end; ++i) {
+        all.flux += lights[i].flux;
+        all.reach = std::max(all.reach, lights[i].reach);
     }
-    places.clear();
-    for (const Group& group : groups) places.push_back(group.sphere);
-    return places;
+    return all;
+}
+
+// What emits, as a light: its sphere, by its brightest point.
+LightEdit glowOf(const EditSphere& place, const glm::vec3& emission) {
+    const float radiance = (emission.r + emission.g + emission.b) / 3;
+    return {.center = place.center,
+            .radius = place.radius,
+            .flux = glm::pi<float>() * radiance * 4 * glm::pi<float>() * place.radius * place.radius};
 }
 
 }  // namespace
 
-// Than that of the last look, for all faces.
+// Than that of the last look, whatever it holds.
 bool EditPlaces::isOther(const scene::GpuScene& scene) const {
-    return scene_ != scene.identity() || lights_ != scene.lightRevision() || sky_ != scene.skyRevision();
+    return scene_ != scene.identity() || sky_ != scene.skyRevision();
 }
 
-EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
-    bool local = !isOther(scene);
-    std::vector<EditSphere> places;
-    if (local && instances_.at() == scene.geometryRevision()) return places;
-    scene_ = scene.identity();
-    lights_ = scene.lightRevision();
-    sky_ = scene.skyRevision();
+// Of what emits, what it has changed.
+void EditPlaces::addGlow(const Entry& was, const Entry& is, float part) {
+    const bool same = was.emission == is.emission && !was.bounds.empty();
+    if (same && is.emission == glm::vec3(0)) return;
+    if (same) {
+        LightEdit moved = glowOf(sphereOf(is.bounds), is.emission);
+        if (part < 1) moved.reach = 2 * part * 2 * moved.radius;
+        edits_.lights.push_back(moved);
+        return;
+    }
+    Aabb box = was.bounds;
+    box.grow(is.bounds);
+    if (!box.empty()) edits_.lights.push_back(glowOf(sphereOf(box), glm::abs(is.emission - was.emission)));
+}
+
+// Instances that are others.
+bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
+    bool known = true;
     const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
     auto change = changes.begin();
     entries_.resize(scene.instances().size());
+    glow_ = 0;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const bool placed = change != changes.end() && change->index == i;
         // One that neither moved nor bent looks other than it did, all of it.
         const float part = placed ? movedPart(scene, *change++) : 1;
         Entry& entry = entries_[i];
-        if (entry.revision == scene.instanceRevision(i)) continue;
-        const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), emits(scene, i)};
-        if (entry.emits || now.emits) local = false;
-        Aabb box = entry.bounds;
-        box.grow(now.bounds);
-        entry = now;
-        if (box.empty()) continue;
-        places.push_back(sphereRound(box, part));
+        const gpu::Material& material = materialOf(scene, i);
+        if (entry.revision != scene.instanceRevision(i)) {
+            const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), material.emission,
+                            (material.flags & MATERIAL_UNLIT) != 0};
+            if (entry.unlit || now.unlit) known = false;
+            Aabb box = entry.bounds;
+            box.grow(now.bounds);
+            if (!box.empty()) {
+                edits_.places.push_back(sphereOf(box, part));
+                addGlow(entry, now, part);
+            }
+            entry = now;
+        }
+        if (entry.emission != glm::vec3(0)) glow_ += glowOf(sphereOf(entry.bounds), entry.emission).flux;
     }
-    if (!local) return std::nullopt;
-    return places.size() > kMost ? fewer(std::move(places), kMost) : places;
+    return known;
+}
+
+// Whether most of a scene's light is another, where there is nothing else that shines: then all of it is.
+bool EditPlaces::mostIsOther(const scene::GpuScene& scene) const {
+    const Scene& source = scene.source();
+    if (source.sky != glm::vec3(0) || source.environment.used()) return false;
+    float power = lightPower_;
+    const float extent = glm::length(scene.bounds().extent());
+    for (std::size_t i = lightCount_; i < edits_.lights.size(); ++i)
+        power += edits_.lights[i].flux * std::min(edits_.lights[i].reach / extent, 1.0f);
+    return power > kMostOfLight * (lights_.power() + glow_);
+}
+
+SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
+    bool known = !isOther(scene);
+    edits_ = {};
+    lightPower_ = 0;
+    if (known && instances_.at() == scene.geometryRevision() && lit_ == scene.lightRevision()) return edits_;
+    if (lit_ != scene.lightRevision()) {
+        LightEdits::Change lights =
+            lights_.look(scene.source().lights, glm::length(scene.bounds().extent()));
+        if (lights.isAnything) known = false;
+        edits_.lights = std::move(lights.lights);
+        edits_.everywhere = lights.everywhere;
+        lightPower_ = lights.power;
+    }
+    lightCount_ = edits_.lights.size();
+    scene_ = scene.identity();
+    lit_ = scene.lightRevision();
+    sky_ = scene.skyRevision();
+    if (!lookAtInstances(scene)) known = false;
+    if (!known || (edits_.ofLight() && mostIsOther(scene))) return std::nullopt;
+    const auto isBeam = [](const LightEdit& light) { return light.axis != glm::vec3(0); };
+    const bool tooMany = edits_.lights.size() > kMost;
+    if (tooMany && std::any_of(edits_.lights.begin(), edits_.lights.end(), isBeam)) return std::nullopt;
+    edits_.places = fewer(std::move(edits_.places), kMost, spheresTogether);
+    edits_.lights = fewer(std::move(edits_.lights), kMost, lightsTogether);
+    return edits_;
 }
 
 }  // namespace conelight::light

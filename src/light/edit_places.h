@@ -1,54 +1,44 @@
 // SPDX-License-Identifier: MIT
 // Where a scene has changed since the last look, for light elsewhere to stay: instances that came, went, moved, bent or look
-// other than they did, where they were and where they are. On the CPU.
+// other than they did, where they were and where they are; lights. On the CPU.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "light/edits.h"
+#include "light/light_edits.h"
 #include "scene/instance_history.h"
-#include "shared/irradiance.h"
 
 namespace conelight::light {
-
-// A sphere in world space, m, and the part of its cross-section that changed, [0,1].
-struct EditSphere {
-    glm::vec3 center{0};
-    float radius = 0, part = 1;
-};
-
-// Of a change, all of them; none: it may be anywhere.
-using EditSpheres = std::optional<std::vector<EditSphere>>;
-
-// Into a block of shaders: placeCount, places, placeParts.
-template <typename Constants>
-void putPlaces(Constants& constants, const std::vector<EditSphere>& places) {
-    constants.placeCount = static_cast<std::uint32_t>(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        constants.places[i] = {places[i].center, places[i].radius};
-        constants.placeParts[i / 4][static_cast<int>(i % 4)] = places[i].part;
-    }
-}
 
 class EditPlaces {
   public:
     static constexpr std::size_t kMost = CHANGED_PLACES;  // of more those near each other are one
 
-    // Spheres round what came or went, and round where things moved or bent, by which part of their size. None: nothing to go
-    // by, light may be another everywhere: at the first look, when lights, the sky or what emits changed, and for another
-    // scene. Costs three comparisons where nothing changed.
-    EditSpheres look(const scene::GpuScene& scene);
+    // Spheres round what came or went, and round where things moved or bent, by which part of their size; lights that
+    // changed, and what emits. None: nothing to go by, light may be another everywhere: at the first look, for another
+    // scene or sky, for what is unlit, and where most of the light is another. Costs four comparisons where nothing changed.
+    SceneEdits look(const scene::GpuScene& scene);
 
   private:
     struct Entry {
         base::Revision revision;
         Aabb bounds;
-        bool emits = false;
+        glm::vec3 emission{0};
+        bool unlit = false;
     };
     bool isOther(const scene::GpuScene& scene) const;
-    base::Revision scene_, lights_, sky_;
+    bool lookAtInstances(const scene::GpuScene& scene);
+    bool mostIsOther(const scene::GpuScene& scene) const;
+    void addGlow(const Entry& was, const Entry& is, float part);
+    base::Revision scene_, lit_, sky_;
     scene::InstanceHistory instances_;
+    LightEdits lights_;
     std::vector<Entry> entries_;
+    EditList edits_;              // of this look; the first `lightCount_` of its lights are those of the scene
+    std::size_t lightCount_ = 0;
+    float lightPower_ = 0;        // of these, W
+    float glow_ = 0;              // of all that emits, W
 };
 
 }  // namespace conelight::light

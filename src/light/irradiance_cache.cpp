@@ -93,7 +93,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
 }
 
 base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels,
-                                          EditSpheres changed) {
+                                          SceneEdits changed) {
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
     restartAverages(changed);
@@ -156,7 +156,7 @@ base::Steps IrradianceCache::sort(const gl::Device& device, const voxels::Surfac
                                 {.searches = searches, .keepsMemory = carried_, .late = searches});
 }
 
-void IrradianceCache::restartAverages(const EditSpheres& changed) {
+void IrradianceCache::restartAverages(const SceneEdits& changed) {
     know();
     // No update has seen the change before, wherever that was.
     restartsNear_ = restarts_ ? std::nullopt : changed;
@@ -193,7 +193,7 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
                                   std::min(settings.longestWindow, kUsualWindow));
     if (restarts_ && restartsNear_) {
         c.restartsNear = 1;
-        putPlaces(c, *restartsNear_);
+        putEdits(c, *restartsNear_);
     }
     return c;
 }

@@ -12,7 +12,7 @@
 
 #include "base/steps.h"
 #include "gl/device.h"
-#include "light/edit_places.h"
+#include "light/edits.h"
 #include "light/face_order.h"
 #include "light/light_balance.h"
 #include "light/light_samples.h"
@@ -55,11 +55,11 @@ class IrradianceCache {
     void adopt(const gl::Device& device, const voxels::Voxels& voxels) {
         adoptInSteps(device, voxels, {}).finish();
     }
-    // Averages far from what changed, at most EditPlaces::kMost places, stay longer (docs/theory/4d_cache.md, "Things that
+    // Averages far from what changed, at most CHANGED_PLACES of a kind, stay longer (docs/theory/4d_cache.md, "Things that
     // move"). Left before it is done, it is to be done again, for the same voxels or others, before update().
-    base::Steps adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels, EditSpheres changed);
+    base::Steps adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels, SceneEdits changed);
     // Direct light, emission or the sky is another: short averages again, until bounces have settled.
-    void restartAverages(const EditSpheres& changed = {});
+    void restartAverages(const SceneEdits& changed = {});
 
     // Visits faces `passes` times over (facesPerUpdate each). GL state changed: program and its slots.
     void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
@@ -151,7 +151,7 @@ class IrradianceCache {
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
     bool dark_ = true;  // no face has light
-    EditSpheres restartsNear_;
+    SceneEdits restartsNear_;
     std::uint32_t updatesMade_ = 0;              // ever
     bool unfinished_ = false;                    // the last one was left
     std::uint32_t updatesOfVoxels_ = 0;          // calls of update() for these voxels

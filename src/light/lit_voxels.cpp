@@ -59,7 +59,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
         cache_ = {};
         voxelsFrom_ = {};
     }
-    EditSpheres changed = places_.look(inputs.scene);
+    SceneEdits changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
     const bool changes = inTheDark || otherSources || otherSettings;
     if (inTheDark || otherVoxels)

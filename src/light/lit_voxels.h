@@ -75,7 +75,7 @@ class LitVoxels {
     std::uint32_t facesPerUpdate() const { return cache_.faces(); }
     std::uint64_t faceVisits() const { return visitsBefore_ + cache_.visits(); }  // by updates, ever
     // Of the change that sources() was raised for last.
-    const EditSpheres& changed() const { return changed_; }
+    const SceneEdits& changed() const { return changed_; }
     // Whether means are long enough to be averaged over many frames.
     bool steady() const;
     const LitFaces& faces() const { return faces_; }
@@ -99,7 +99,7 @@ class LitVoxels {
     IrradianceCache cache_;
     std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;
-    EditSpheres changed_;     // by the last change; some: it was taken as one of near faces alone
+    SceneEdits changed_;     // by the last change; some: it was taken as one of near faces alone
     bool directDue_ = false;  // direct light is that of other voxels or lights
 
     // What it was made from.

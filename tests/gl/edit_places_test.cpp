@@ -12,6 +12,8 @@
 namespace conelight::test {
 namespace {
 
+constexpr float kPi = 3.14159265f;
+
 class EditPlacesTest : public GlTest {
   protected:
     void SetUp() override {
@@ -36,6 +38,11 @@ class EditPlacesTest : public GlTest {
         scene_->setInstance(index, moved);
     }
 
+    std::optional<std::vector<light::EditSphere>> spheres() {
+        const light::SceneEdits edits = places_.look(*scene_);
+        return edits ? std::optional(edits->places) : std::nullopt;
+    }
+
     static constexpr std::size_t kMost = light::EditPlaces::kMost, kBoxes = 3 * kMost;
     Scene source_;
     std::optional<scene::GpuScene> scene_;
@@ -53,13 +60,13 @@ TEST_F(EditPlacesTest, SmallMovesAreSmallPlaces) {
     places_.look(*scene_);
     const float radius = 0.5f * glm::length(scene_->instanceBounds(2).extent());
     move(2, {0.01f, 0, 0});
-    const auto small = places_.look(*scene_);
+    const auto small = spheres();
     ASSERT_TRUE(small && small->size() == 1);
     EXPECT_NEAR(small->front().center.x, 6, 0.1);
     EXPECT_NEAR(small->front().radius, radius, 0.01f);
     EXPECT_NEAR(small->front().part, 0.01f / (2 * radius), 1e-4f);
     move(2, {0, 40, 0});
-    const auto large = places_.look(*scene_);
+    const auto large = spheres();
     ASSERT_TRUE(large && large->size() == 1);
     EXPECT_GT(large->front().radius, 20);  // where it was and where it is
     EXPECT_EQ(large->front().part, 1);
@@ -74,12 +81,12 @@ TEST_F(EditPlacesTest, SmallBendsAreSmallPlaces) {
         scene_->setMesh(2, bent);
     };
     bend(0.01f);
-    const auto once = places_.look(*scene_);
+    const auto once = spheres();
     ASSERT_TRUE(once && once->size() == 1);
     EXPECT_NEAR(once->front().part, 0.01f / (2 * once->front().radius), 1e-4f);
     bend(0.01f);
     bend(0.01f);
-    const auto twice = places_.look(*scene_);
+    const auto twice = spheres();
     ASSERT_TRUE(twice && twice->size() == 1);
     EXPECT_EQ(twice->front().part, 1);
 }
@@ -88,10 +95,10 @@ TEST_F(EditPlacesTest, SmallBendsAreSmallPlaces) {
 TEST_F(EditPlacesTest, OfManyThoseNearEachOtherAreOne) {
     places_.look(*scene_);
     for (std::size_t i = 0; i < kMost; ++i) move(i, {0, 0.01f, 0});
-    const auto few = places_.look(*scene_);
+    const auto few = spheres();
     ASSERT_TRUE(few && few->size() == kMost);
     for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, 0.01f, 0});
-    const auto many = places_.look(*scene_);
+    const auto many = spheres();
     ASSERT_TRUE(many && many->size() == kMost);
     const auto area = [](const light::EditSphere& place) { return place.part * place.radius * place.radius; };
     double seen = 0;
@@ -112,36 +119,71 @@ TEST_F(EditPlacesTest, ThingsInOnePlaceAreTakenTogether) {
     for (std::size_t i = 0; i < kBoxes; ++i) move(i, {-3.0f * static_cast<float>(i), 0, 0});
     places_.look(*scene_);
     for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, i == 5 ? 30 : 0.01f, 0});
-    const auto many = places_.look(*scene_);
+    const auto many = spheres();
     ASSERT_TRUE(many && many->size() == kMost);
     const auto whole = std::count_if(many->begin(), many->end(),
                                      [](const light::EditSphere& place) { return place.radius > 5; });
     EXPECT_EQ(whole, 1);
 }
 
-TEST_F(EditPlacesTest, LightsAndWhatEmitsChangeEverything) {
+TEST_F(EditPlacesTest, WhatIsUnlitAndTheSkyChangeEverything) {
     places_.look(*scene_);
-    move(kBoxes, {0.1f, 0, 0});  // the lamp
-    EXPECT_FALSE(places_.look(*scene_));
     Material unlit = source_.materials[0];
     unlit.unlit = true;
     scene_->setMaterial(0, unlit);
-    EXPECT_FALSE(places_.look(*scene_));
-    scene_->setLights({});
     EXPECT_FALSE(places_.look(*scene_));
     scene_->setSky(glm::vec3(1));
     EXPECT_FALSE(places_.look(*scene_));
     EXPECT_TRUE(places_.look(*scene_));
 }
 
+TEST_F(EditPlacesTest, LightsArePlacesUnlessTheyAreMostOfTheLight) {
+    places_.look(*scene_);
+    std::vector<Light> lights = source_.lights;
+    lights[0].intensity = glm::vec3(0.8f);
+    scene_->setLights(lights);
+    const light::SceneEdits dimmed = places_.look(*scene_);
+    ASSERT_TRUE(dimmed && dimmed->lights.size() == 1 && dimmed->places.empty());
+    EXPECT_NEAR(dimmed->lights[0].flux, 4 * kPi * 0.2f, 1e-4f);
+    lights[0].intensity = glm::vec3(40);  // and the cube, which counts as 10
+    scene_->setLights(lights);
+    EXPECT_FALSE(places_.look(*scene_));
+    scene_->setSky(glm::vec3(0.1f));
+    places_.look(*scene_);
+    lights[0].intensity = glm::vec3(1);
+    scene_->setLights(lights);
+    EXPECT_TRUE(places_.look(*scene_));
+}
+
+// A cube of edge 2 and emission 1, as its sphere.
+TEST_F(EditPlacesTest, WhatEmitsIsALightAndAThing) {
+    constexpr float kFlux = kPi * 4 * kPi * 3;
+    places_.look(*scene_);
+    move(kBoxes, {0.01f, 0, 0});
+    const light::SceneEdits moved = places_.look(*scene_);
+    ASSERT_TRUE(moved && moved->lights.size() == 1 && moved->places.size() == 1);
+    EXPECT_NEAR(moved->lights[0].flux, kFlux, 0.01f);
+    EXPECT_NEAR(moved->lights[0].reach, 0.02f, 1e-3f);
+    scene_->setSky(glm::vec3(0.1f));
+    places_.look(*scene_);
+    Material brighter = source_.materials.back();
+    brighter.emission = glm::vec3(1.5f);
+    scene_->setMaterial(source_.materials.size() - 1, brighter);
+    const light::SceneEdits lit = places_.look(*scene_);
+    ASSERT_TRUE(lit && lit->lights.size() == 1);
+    EXPECT_NEAR(lit->lights[0].flux, 0.5f * kFlux, 0.01f);
+    EXPECT_GT(lit->lights[0].reach, 1e9f);
+    EXPECT_NEAR(lit->lights[0].center.y, 9, 0.01f);
+}
+
 TEST_F(EditPlacesTest, ComingAndGoingArePlacesOfFullSize) {
     places_.look(*scene_);
     scene_->removeInstance(1);
-    const auto gone = places_.look(*scene_);
+    const auto gone = spheres();
     ASSERT_TRUE(gone && gone->size() == 1);
     EXPECT_NEAR(gone->front().center.x, 3, 1e-3);
     scene_->addInstance(source_.instances[1]);
-    const auto come = places_.look(*scene_);
+    const auto come = spheres();
     ASSERT_TRUE(come && come->size() == 1);
     EXPECT_NEAR(come->front().radius, gone->front().radius, 1e-3);
 }

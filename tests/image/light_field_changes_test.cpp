@@ -149,6 +149,39 @@ TEST_F(LightFieldChanges, LightStaysWhereCrowdsAreNot) {
     EXPECT_LT(error, 0.06);  // 0.086 where all are one sphere
 }
 
+// In a room that a lamp lights, another one flickers; that lamp is carried about; a third goes on for good. Faces have one
+// update a frame. Where all of them forget all they have, errors are in brackets.
+TEST_F(LightFieldChanges, LightStaysWhileLampsChange) {
+    Settings settings = hostSettings();
+    settings.traced.pixelRays = 0;  // the cache as it is
+    HostPicture host(scene_, lens());
+    drawn(host);
+    scene_.lights.push_back({.intensity = glm::vec3(0.02f), .position = glm::vec3(-0.8f)});
+    const auto errorAfter = [&](const char* name, const std::function<void(std::vector<Light>&, int)>& change) {
+        LightField field;
+        settle(field, settings);
+        Scene scene = scene_;
+        for (int frame = 1; frame <= 8; ++frame) {
+            change(scene.lights, frame);
+            field.setLights(scene.lights);
+            field.update();
+        }
+        const double error = hostDifference(diffuseOf(field, host), freshly(scene, settings, host));
+        RecordProperty(name, std::to_string(error));
+        return error;
+    };
+    const auto flicker = [](std::vector<Light>& lights, int frame) {
+        lights[1].intensity = glm::vec3(frame % 2 != 0 ? 0.03f : 0.02f);
+    };
+    const auto walk = [](std::vector<Light>& lights, int) { lights[0].position.x -= 0.01f; };
+    const auto run = [](std::vector<Light>& lights, int) { lights[0].position.x -= 0.1f; };
+    const auto goOn = [](std::vector<Light>& lights, int) { lights[1].intensity = glm::vec3(1); };
+    EXPECT_LT(errorAfter("flicker", flicker), 0.06);  // (0.089)
+    EXPECT_LT(errorAfter("walk", walk), 0.06);        // (0.077)
+    EXPECT_LT(errorAfter("run", run), 0.12);          // (0.099)
+    EXPECT_LT(errorAfter("on", goOn), 0.12);          // (0.096)
+}
+
 // When things stand still again, twice as many updates as elsewhere leave the light of a fresh scene: nothing of the way.
 TEST_F(LightFieldChanges, NothingIsLeftOfAWay) {
     Settings settings = hostSettings();

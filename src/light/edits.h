@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What has changed in a scene, for light elsewhere to stay (docs/theory/4d_cache.md, "Things that move", "Lights that
+// change"): places of things and of lights. On the CPU.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "shared/irradiance.h"
+
+namespace conelight::light {
+
+// A sphere in world space, m, and the part of its cross-section that changed, [0,1].
+struct EditSphere {
+    glm::vec3 center{0};
+    float radius = 0, part = 1;
+};
+
+// A light that changed, in world space.
+struct LightEdit {
+    glm::vec3 center{0};
+    float radius = 0;    // m, that it may be beside the centre
+    float flux = 0;      // W, mean of the channels: by how much it is another
+    glm::vec3 axis{0};   // unit, of a spot, whose light is anywhere along it; zero: it shines to all sides
+    // m. Farther away, at the distance d, a light that has only moved is another by reach / d of the flux.
+    float reach = std::numeric_limits<float>::max();
+};
+
+struct EditList {
+    std::vector<EditSphere> places;
+    std::vector<LightEdit> lights;
+    float everywhere = 0;  // W/m^2, mean of the channels: by which irradiance may be another at any place
+    bool empty() const { return places.empty() && lights.empty() && everywhere == 0; }
+    bool ofLight() const { return !lights.empty() || everywhere > 0; }
+};
+
+// All of a change; none: it may be anything.
+using SceneEdits = std::optional<EditList>;
+
+// Into a block of shaders (lib/edits.glsl). At most CHANGED_PLACES of a kind.
+template <typename Constants>
+void putEdits(Constants& constants, const EditList& edits) {
+    const auto four = [](glm::vec4* fours, std::size_t i) -> float& {
+        return fours[i / 4][static_cast<int>(i % 4)];
+    };
+    constants.placeCount = static_cast<std::uint32_t>(edits.places.size());
+    for (std::size_t i = 0; i < edits.places.size(); ++i) {
+        constants.places[i] = {edits.places[i].center, edits.places[i].radius};
+        four(constants.placeParts, i) = edits.places[i].part;
+    }
+    constants.lightEdits = static_cast<std::uint32_t>(edits.lights.size());
+    for (std::size_t i = 0; i < edits.lights.size(); ++i) {
+        constants.editedLights[i] = {edits.lights[i].center, edits.lights[i].flux};
+        constants.editedAxes[i] = {edits.lights[i].axis, edits.lights[i].radius};
+        four(constants.editedReaches, i) = edits.lights[i].reach;
+    }
+    constants.editedEverywhere = edits.everywhere;
+}
+
+}  // namespace conelight::light

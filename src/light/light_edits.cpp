@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "light/light_edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace conelight::light {
+namespace {
+
+// Of a directional light: where more of it is another, all light is.
+constexpr float kMostOfSun = 0.5f;
+constexpr float kPi = glm::pi<float>();
+
+float brightness(const glm::vec3& color) { return (color.r + color.g + color.b) / 3; }
+
+float sum(const glm::vec3& color) { return glm::dot(glm::abs(color), glm::vec3(1)); }
+
+// In place of the intensity, of a light with a falloff of its own.
+float farAway(const Light& light) { return light.customFalloff ? 1 / light.falloff.z : 1.0f; }
+
+bool hasPlace(const Light& light) { return light.type != LightType::Directional; }
+
+glm::vec3 directionOf(const Light& light) {
+    const float length = glm::length(light.direction);
+    return length > 0 ? light.direction / length : glm::vec3(0, -1, 0);
+}
+
+// Half of what shines to one side.
+glm::vec3 halfAxis(const Light& light) { return glm::cross(light.halfU, light.halfV); }
+
+// The farthest that what a light shines on has come at the distance 1 m, rad.
+float turnedBy(const Light& was, const Light& is) {
+    if (was.type == LightType::Point || was.type == LightType::Sphere) return 0;
+    float chord = glm::distance(directionOf(was), directionOf(is));
+    if (was.type == LightType::Spot) return chord;
+    const glm::vec3 before = halfAxis(was), now = halfAxis(is);
+    const float area = std::max(glm::length(before), glm::length(now));
+    if (area > 0) chord = std::max(chord, std::min(glm::distance(before, now), glm::distance(before, -now)) / area);
+    return chord;
+}
+
+// Whether it is the same light in another place.
+bool onlyMoved(const Light& was, const Light& is) {
+    Light moved = was;
+    moved.position = is.position;
+    moved.direction = is.direction;
+    moved.halfU = is.halfU;
+    moved.halfV = is.halfV;
+    moved.name = is.name;
+    return moved == is;
+}
+
+class Changes {
+  public:
+    Changes(float extent, LightEdits::Change& change) : extent_(extent), change_(change) {}
+
+    void add(const Light& was, const Light& is) {
+        if (was == is) return;
+        if (!was.enabled && !is.enabled) return;
+        if (was.enabled && is.enabled && was.type == is.type) {
+            if (!hasPlace(is)) return addSun(was, is);
+            if (onlyMoved(was, is)) return addMove(was, is);
+            Light other = was;
+            other.intensity = is.intensity;
+            if (onlyMoved(other, is) && was.position == is.position) {
+                other.intensity = glm::abs(is.intensity - was.intensity);
+                return addWhole(other);
+            }
+        }
+        if (was.enabled) addWhole(was);
+        if (is.enabled) addWhole(is);
+    }
+    void addWhole(const Light& light) {
+        if (!light.enabled || sum(light.intensity) == 0) return;
+        if (const auto edit = placeOf(light))
+            put(*edit);
+        else
+            change_.isAnything = true;
+    }
+
+  private:
+    void put(const LightEdit& edit) {
+        change_.lights.push_back(edit);
+        change_.power += edit.flux * std::min(edit.reach / extent_, 1.0f);
+    }
+    // A step aside changes what lies to its side by twice its part of the distance; a turn by how far it sweeps.
+    void addMove(const Light& was, const Light& is) {
+        auto edit = placeOf(is);
+        if (!edit) {
+            change_.isAnything = true;
+            return;
+        }
+        const float step = glm::distance(was.position, is.position), turn = turnedBy(was, is);
+        edit->center = 0.5f * (was.position + is.position);
+        edit->radius += 0.5f * step;
+        edit->reach = 2 * step;
+        if (turn > 0) {
+            // What it sweeps is a part of its beam, however far away.
+            edit->flux *= std::min(turn / beamOf(is) + step / extent_, 1.0f);
+            edit->reach = std::numeric_limits<float>::max();
+        }
+        if (edit->flux > 0 && (step > 0 || turn > 0)) put(*edit);
+    }
+    static float beamOf(const Light& light) {
+        return light.type == LightType::Spot ? std::max(light.outerAngle, 1e-3f) : glm::half_pi<float>();
+    }
+    void addSun(const Light& was, const Light& is) {
+        const glm::vec3 before = directionOf(was), now = directionOf(is);
+        float other = 0, all = 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            other += glm::distance(was.intensity[channel] * before, is.intensity[channel] * now) / 3;
+            all += std::max(was.intensity[channel], is.intensity[channel]) / 3;
+        }
+        if (other > kMostOfSun * all || was.castsShadow != is.castsShadow) change_.isAnything = true;
+        change_.everywhere += other;
+    }
+
+    float extent_;
+    LightEdits::Change& change_;
+};
+
+}  // namespace
+
+std::optional<LightEdit> placeOf(const Light& light) {
+    if (!hasPlace(light)) return std::nullopt;
+    LightEdit edit{.center = light.position};
+    const float intensity = brightness(light.intensity) * farAway(light);
+    switch (light.type) {
+        case LightType::Spot:
+            edit.flux = 2 * kPi * intensity * (1 - std::cos(0.5f * (light.innerAngle + light.outerAngle)));
+            edit.axis = directionOf(light);
+            break;
+        case LightType::Sphere:
+            edit.radius = glm::length(light.halfU);
+            edit.flux = kPi * intensity * 4 * kPi * edit.radius * edit.radius;
+            break;
+        case LightType::Rect:
+        case LightType::Disk:
+            edit.radius = glm::length(light.halfU) + glm::length(light.halfV);
+            edit.flux = kPi * intensity * (light.type == LightType::Disk ? kPi : 4.0f) *
+                        glm::length(halfAxis(light));
+            break;
+        default:
+            edit.flux = 4 * kPi * intensity;
+    }
+    if (!std::isfinite(edit.flux)) return std::nullopt;
+    return edit;
+}
+
+// Lights keep their order: between those that are the same at both ends, they are compared one by one, and where their
+// number is another they go and come.
+LightEdits::Change LightEdits::look(const std::vector<Light>& lights, float extent) {
+    const std::size_t most = std::min(lights_.size(), lights.size());
+    std::size_t first = 0, last = 0;
+    while (first < most && lights_[first] == lights[first]) ++first;
+    while (last < most - first && lights_[lights_.size() - 1 - last] == lights[lights.size() - 1 - last]) ++last;
+    Change change;
+    Changes changes(extent, change);
+    const std::size_t end = lights.size() - last, oldEnd = lights_.size() - last;
+    if (end == oldEnd) {
+        for (std::size_t i = first; i < end; ++i) changes.add(lights_[i], lights[i]);
+    } else {
+        for (std::size_t i = first; i < oldEnd; ++i) changes.addWhole(lights_[i]);
+        for (std::size_t i = first; i < end; ++i) changes.addWhole(lights[i]);
+    }
+    lights_ = lights;
+    power_ = 0;
+    for (const Light& light : lights_) {
+        const auto edit = placeOf(light);
+        if (light.enabled) power_ += edit ? edit->flux : std::numeric_limits<float>::infinity();
+    }
+    return change;
+}
+
+}  // namespace conelight::light

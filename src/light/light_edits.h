@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Which lights are others than at the last look, and what they change (docs/theory/4d_cache.md, "Lights that change").
+// On the CPU.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "light/edits.h"
+
+namespace conelight::light {
+
+// As a light edit what a light does, all of it; none: it has no place, or does not fall off as light does.
+std::optional<LightEdit> placeOf(const Light& light);
+
+class LightEdits {
+  public:
+    struct Change {
+        std::vector<LightEdit> lights;
+        float everywhere = 0;     // as in EditList
+        float power = 0;          // of what changed, W: sum of fluxes, of what moved by the part that it moved
+        bool isAnything = false;  // there is nothing to go by
+    };
+    // `extent`: of the scene, m.
+    Change look(const std::vector<Light>& lights, float extent);
+    // Of the last look: of all lights that have a place, W; infinite with one that has none.
+    float power() const { return power_; }
+
+  private:
+    std::vector<Light> lights_;
+    float power_ = 0;
+};
+
+}  // namespace conelight::light
