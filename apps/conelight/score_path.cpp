@@ -13,7 +13,7 @@ namespace {
 [[noreturn]] void badPath(const std::string& text) {
     throw Error(ErrorKind::Usage,
                 "--path: '" + text +
-                    "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, clip=NAME "
+                    "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, light=NAME:X,Y,Z, clip=NAME "
                     "or the file of a camera path would be right");
 }
 
@@ -35,8 +35,8 @@ ScorePath::ScorePath(const std::string& text, const std::string& scene, const Vi
         return;
     }
     const std::string value = text.substr(equals + 1);
-    if (kind == "object") {
-        takeObject(value);
+    if (kind == "object" || kind == "light") {
+        takeTravel(kind == "light" ? Kind::Light : Kind::Object, value);
         return;
     }
     if (kind == "clip") {
@@ -53,10 +53,10 @@ ScorePath::ScorePath(const std::string& text, const std::string& scene, const Vi
         badPath(text);
 }
 
-void ScorePath::takeObject(const std::string& value) {
+void ScorePath::takeTravel(Kind kind, const std::string& value) {
     const std::size_t colon = value.rfind(':');
     if (colon == std::string::npos) badPath(text_);
-    kind_ = Kind::Object;
+    kind_ = kind;
     name_ = value.substr(0, colon);
     travel_ = parseVec3("--path", value.substr(colon + 1));
 }
@@ -85,19 +85,35 @@ Scene ScorePath::sceneAt(const Scene& scene, int index, int count) const {
         for (const io::DeformedMesh& mesh : animation_.meshes)
             io::deform(mesh, poses, moved.meshes[mesh.mesh]);
     }
-    if (kind_ != Kind::Object) return moved;
+    const glm::vec3 travelled = partOf(index, count) * travel_;
+    if (kind_ == Kind::Object) moveObject(moved, travelled);
+    if (kind_ == Kind::Light) moveLight(moved, travelled);
+    return moved;
+}
+
+void ScorePath::moveObject(Scene& scene, const glm::vec3& by) const {
     bool found = false;
-    for (Instance& instance : moved.instances) {
+    for (Instance& instance : scene.instances) {
         if (instance.name != name_) continue;
-        instance.worldFromObject =
-            glm::translate(glm::mat4(1), partOf(index, count) * travel_) * instance.worldFromObject;
+        instance.worldFromObject = glm::translate(glm::mat4(1), by) * instance.worldFromObject;
         found = true;
     }
     if (!found)
         throw Error(ErrorKind::Usage,
                     "--path: the scene has no object '" + name_ +
                         "'; a name that `conelight info SCENE --objects` lists would be right");
-    return moved;
+}
+
+void ScorePath::moveLight(Scene& scene, const glm::vec3& by) const {
+    bool found = false;
+    for (Light& light : scene.lights) {
+        if (light.name != name_) continue;
+        light.position += by;
+        found = true;
+    }
+    if (!found)
+        throw Error(ErrorKind::Usage, "--path: the scene has no light '" + name_ +
+                                          "'; a name that `conelight info SCENE` lists would be right");
 }
 
 }  // namespace conelight::program

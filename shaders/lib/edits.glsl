@@ -27,18 +27,18 @@ float changedInLobe(vec3 position, vec3 axis, float spread, vec4 place) {
     return sine >= 1.0 ? 1.0 : covered * covered * falloff * falloff;
 }
 
-// W/m^2 by which irradiance at `position` is another, for a light with its center and flux, its axis and radius: flux over
-// the walls of a cube with the diagonal d.
-float changedIrradiance(vec3 position, vec4 light, vec4 axis, float reach) {
+// Of the irradiance at a place the part that `changed` W/m^2 are, `most` at most. `radiance`: of a white surface there.
+float partOfIrradiance(float changed, vec3 radiance, float most) {
+    return min(changed / max(kThirdOfPi * (radiance.r + radiance.g + radiance.b), 1e-12), most);
+}
+
+// The same at `position` for a light with its center and flux, its axis and radius, and its reach and part in `limits`. It
+// brings there what its flux is on the walls of a cube with the diagonal d.
+float partOfLight(vec3 position, vec3 radiance, vec4 light, vec4 axis, vec4 limits) {
     vec3 apart = position - light.xyz;
     apart -= max(dot(apart, axis.xyz), 0.0) * axis.xyz;
     float d = max(length(apart) - axis.w, 1e-6);
-    return light.w / (2.0 * d * d) * min(reach / d, 1.0);
-}
-
-// That as a part of what there is: `radiance` of a white surface.
-float partOfIrradiance(float changed, vec3 radiance) {
-    return changed / max(kThirdOfPi * (radiance.r + radiance.g + radiance.b), 1e-12);
+    return partOfIrradiance(light.w / (2.0 * d * d), radiance, limits.y) * min(limits.x / d, 1.0);
 }
 
 // The weight of what is gathered next, in a mean, that errs least: by noise of many frames, and by what it lags.

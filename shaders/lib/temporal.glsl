@@ -132,13 +132,11 @@ float longestMeanAt(vec3 position, vec3 mean) {
         uint at = editPlace(i);
         changed += changedPart(position, pixelRays.places[at], pixelRays.placeParts[at >> 2][at & 3u]);
     }
-    float irradiance = pixelRays.editedEverywhere;
+    changed += partOfIrradiance(pixelRays.editedEverywhere, mean, pixelRays.editedEverywherePart);
     for (uint i = 0u; i < pixelRays.lightEdits; ++i) {
         uint at = editPlace(i);
-        irradiance += changedIrradiance(position, pixelRays.editedLights[at], pixelRays.editedAxes[at],
-                                        pixelRays.editedReaches[at >> 2][at & 3u]);
+        changed += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at], pixelRays.editedLimits[at]);
     }
-    changed += partOfIrradiance(irradiance, mean);
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestMean, pixelRays.longestMean);
 }
 

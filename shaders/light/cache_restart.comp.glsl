@@ -15,13 +15,11 @@ uint updatesKept(uint updates, vec3 position, vec3 radiance) {
         uint at = editPlace(i);
         changed += changedPart(position, cache.places[at], cache.placeParts[at >> 2][at & 3u]);
     }
-    float irradiance = cache.editedEverywhere;
+    changed += partOfIrradiance(cache.editedEverywhere, radiance, cache.editedEverywherePart);
     for (uint i = 0u; i < cache.lightEdits; ++i) {
         uint at = editPlace(i);
-        irradiance += changedIrradiance(position, cache.editedLights[at], cache.editedAxes[at],
-                                        cache.editedReaches[at >> 2][at & 3u]);
+        changed += partOfLight(position, radiance, cache.editedLights[at], cache.editedAxes[at], cache.editedLimits[at]);
     }
-    changed += partOfIrradiance(irradiance, radiance);
     float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
     return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);

@@ -143,12 +143,12 @@ struct CacheConstants {
     // ---- 368 B: light::EditList
     uint lightEdits;
     float editedEverywhere;  // W/m^2
+    float editedEverywherePart;
     uint pad0;
-    uint pad1;
     vec4 editedLights[CHANGED_PLACES];  // world space; w: flux, W
     vec4 editedAxes[CHANGED_PLACES];    // w: radius, m
-    vec4 editedReaches[CHANGED_FOURS];  // m
-};                                      // 960 B
+    vec4 editedLimits[CHANGED_PLACES];  // reach, m; part
+};                                      // 1152 B
 
 // The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
 struct CacheBalance {
@@ -210,7 +210,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 960);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 1152);
 static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
 static_assert(sizeof(conelight::gpu::CacheBalancing) == 32);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);

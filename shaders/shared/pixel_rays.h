@@ -61,15 +61,15 @@ struct PixelRayConstants {
     vec4 placeParts[CHANGED_FOURS];  // as there
     // ---- 512 B
     float editedEverywhere;
+    float editedEverywherePart;
     uint pad0;
     uint pad1;
-    uint pad2;
     vec4 editedLights[CHANGED_PLACES];
     vec4 editedAxes[CHANGED_PLACES];
-    vec4 editedReaches[CHANGED_FOURS];
-};  // 1104 B
+    vec4 editedLimits[CHANGED_PLACES];
+};  // 1296 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 1104);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 1296);
 #endif

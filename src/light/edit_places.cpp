@@ -65,42 +65,44 @@ EditSphere spheresTogether(const Places<EditSphere>& places, std::size_t begin, 
 
 LightEdit lightsTogether(const Places<LightEdit>& lights, std::size_t begin, std::size_t end) {
     const auto [center, radius] = sphereRound(lights, begin, end);
-    LightEdit all{.center = center, .radius = radius, .reach = 0};
+    LightEdit all{.center = center, .radius = radius, .reach = 0, .part = 0};
     for (std::size_t i = begin; i < end; ++i) {
         all.flux += lights[i].flux;
         all.reach = std::max(all.reach, lights[i].reach);
+        all.part = std::max(all.part, lights[i].part);
     }
     return all;
 }
 
-// What emits, as a light: its sphere, by its brightest point.
-LightEdit glowOf(const EditSphere& place, const glm::vec3& emission) {
-    const float radiance = (emission.r + emission.g + emission.b) / 3;
-    return {.center = place.center,
-            .radius = place.radius,
-            .flux = glm::pi<float>() * radiance * 4 * glm::pi<float>() * place.radius * place.radius};
+// What emits, as a light: its box, by its brightest point.
+LightEdit glowOf(const Aabb& box, const glm::vec3& emission) {
+    const glm::vec3 e = box.extent();
+    const float area = 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+    return {.center = box.center(), .flux = glm::pi<float>() * area * (emission.r + emission.g + emission.b) / 3};
 }
 
 }  // namespace
-
-// Than that of the last look, whatever it holds.
-bool EditPlaces::isOther(const scene::GpuScene& scene) const {
-    return scene_ != scene.identity() || sky_ != scene.skyRevision();
-}
 
 // Of what emits, what it has changed.
 void EditPlaces::addGlow(const Entry& was, const Entry& is, float part) {
     const bool same = was.emission == is.emission && !was.bounds.empty();
     if (same && is.emission == glm::vec3(0)) return;
     if (same) {
-        LightEdit moved = glowOf(sphereOf(is.bounds), is.emission);
-        if (part < 1) moved.reach = 2 * part * 2 * moved.radius;
+        LightEdit moved = glowOf(is.bounds, is.emission);
+        if (part < 1) {
+            moved.reach = 2 * part * glm::length(is.bounds.extent());
+            moved.part = 1;
+        }
         edits_.lights.push_back(moved);
         return;
     }
     Aabb box = was.bounds;
     box.grow(is.bounds);
-    if (!box.empty()) edits_.lights.push_back(glowOf(sphereOf(box), glm::abs(is.emission - was.emission)));
+    if (box.empty()) return;
+    LightEdit other = glowOf(box, glm::abs(is.emission - was.emission));
+    if (was.bounds.min == is.bounds.min && was.bounds.max == is.bounds.max)
+        other.part = partOf(was.emission, is.emission);
+    edits_.lights.push_back(other);
 }
 
 // Instances that are others.
@@ -128,7 +130,7 @@ bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
             }
             entry = now;
         }
-        if (entry.emission != glm::vec3(0)) glow_ += glowOf(sphereOf(entry.bounds), entry.emission).flux;
+        if (entry.emission != glm::vec3(0)) glow_ += glowOf(entry.bounds, entry.emission).flux;
     }
     return known;
 }
@@ -144,23 +146,38 @@ bool EditPlaces::mostIsOther(const scene::GpuScene& scene) const {
     return power > kMostOfLight * (lights_.power() + glow_);
 }
 
-SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
-    bool known = !isOther(scene);
-    edits_ = {};
-    lightPower_ = 0;
-    if (known && instances_.at() == scene.geometryRevision() && lit_ == scene.lightRevision()) return edits_;
+// Lamps, suns and sky that are others.
+bool EditPlaces::lookAtLights(const scene::GpuScene& scene) {
+    const Scene& source = scene.source();
+    bool known = true;
     if (lit_ != scene.lightRevision()) {
-        LightEdits::Change lights =
-            lights_.look(scene.source().lights, glm::length(scene.bounds().extent()));
-        if (lights.isAnything) known = false;
+        LightEdits::Change lights = lights_.look(source.lights, glm::length(scene.bounds().extent()));
+        known = !lights.isAnything;
         edits_.lights = std::move(lights.lights);
         edits_.everywhere = lights.everywhere;
+        edits_.everywherePart = lights.everywherePart;
         lightPower_ = lights.power;
     }
-    lightCount_ = edits_.lights.size();
-    scene_ = scene.identity();
+    if (skyLit_ != scene.skyRevision()) {
+        const SkyEdits::Change sky = sky_.look(source.sky, source.environment);
+        if (sky.isAnything) known = false;
+        edits_.everywhere += sky.irradiance;
+        edits_.everywherePart += sky.part;
+    }
     lit_ = scene.lightRevision();
-    sky_ = scene.skyRevision();
+    skyLit_ = scene.skyRevision();
+    return known && edits_.everywherePart <= kMostOfLight;
+}
+
+SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
+    bool known = scene_ == scene.identity();
+    edits_ = {};
+    lightPower_ = 0;
+    const bool sameLights = lit_ == scene.lightRevision() && skyLit_ == scene.skyRevision();
+    if (known && sameLights && instances_.at() == scene.geometryRevision()) return edits_;
+    scene_ = scene.identity();
+    if (!lookAtLights(scene)) known = false;
+    lightCount_ = edits_.lights.size();
     if (!lookAtInstances(scene)) known = false;
     if (!known || (edits_.ofLight() && mostIsOther(scene))) return std::nullopt;
     const auto isBeam = [](const LightEdit& light) { return light.axis != glm::vec3(0); };

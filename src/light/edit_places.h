@@ -7,6 +7,7 @@
 
 #include "light/edits.h"
 #include "light/light_edits.h"
+#include "light/sky_edits.h"
 #include "scene/instance_history.h"
 
 namespace conelight::light {
@@ -16,8 +17,8 @@ class EditPlaces {
     static constexpr std::size_t kMost = CHANGED_PLACES;  // of more those near each other are one
 
     // Spheres round what came or went, and round where things moved or bent, by which part of their size; lights that
-    // changed, and what emits. None: nothing to go by, light may be another everywhere: at the first look, for another
-    // scene or sky, for what is unlit, and where most of the light is another. Costs four comparisons where nothing changed.
+    // changed, and what emits; sky and suns. None: nothing to go by, light may be another everywhere: at the first look, for
+    // another scene, for what is unlit, and where most of the light is another. Costs four comparisons where nothing changed.
     SceneEdits look(const scene::GpuScene& scene);
 
   private:
@@ -27,13 +28,14 @@ class EditPlaces {
         glm::vec3 emission{0};
         bool unlit = false;
     };
-    bool isOther(const scene::GpuScene& scene) const;
     bool lookAtInstances(const scene::GpuScene& scene);
     bool mostIsOther(const scene::GpuScene& scene) const;
     void addGlow(const Entry& was, const Entry& is, float part);
-    base::Revision scene_, lit_, sky_;
+    bool lookAtLights(const scene::GpuScene& scene);
+    base::Revision scene_, lit_, skyLit_;
     scene::InstanceHistory instances_;
     LightEdits lights_;
+    SkyEdits sky_;
     std::vector<Entry> entries_;
     EditList edits_;              // of this look; the first `lightCount_` of its lights are those of the scene
     std::size_t lightCount_ = 0;

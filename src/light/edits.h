@@ -25,12 +25,14 @@ struct LightEdit {
     glm::vec3 axis{0};   // unit, of a spot, whose light is anywhere along it; zero: it shines to all sides
     // m. Farther away, at the distance d, a light that has only moved is another by reach / d of the flux.
     float reach = std::numeric_limits<float>::max();
+    float part = std::numeric_limits<float>::max();  // of the irradiance at a place it changes no more
 };
 
 struct EditList {
     std::vector<EditSphere> places;
     std::vector<LightEdit> lights;
-    float everywhere = 0;  // W/m^2, mean of the channels: by which irradiance may be another at any place
+    // By which irradiance may be another at any place, W/m^2, mean of the channels, but by no more than a part of it.
+    float everywhere = 0, everywherePart = 0;
     bool empty() const { return places.empty() && lights.empty() && everywhere == 0; }
     bool ofLight() const { return !lights.empty() || everywhere > 0; }
 };
@@ -41,21 +43,19 @@ using SceneEdits = std::optional<EditList>;
 // Into a block of shaders (lib/edits.glsl). At most CHANGED_PLACES of a kind.
 template <typename Constants>
 void putEdits(Constants& constants, const EditList& edits) {
-    const auto four = [](glm::vec4* fours, std::size_t i) -> float& {
-        return fours[i / 4][static_cast<int>(i % 4)];
-    };
     constants.placeCount = static_cast<std::uint32_t>(edits.places.size());
     for (std::size_t i = 0; i < edits.places.size(); ++i) {
         constants.places[i] = {edits.places[i].center, edits.places[i].radius};
-        four(constants.placeParts, i) = edits.places[i].part;
+        constants.placeParts[i / 4][static_cast<int>(i % 4)] = edits.places[i].part;
     }
     constants.lightEdits = static_cast<std::uint32_t>(edits.lights.size());
     for (std::size_t i = 0; i < edits.lights.size(); ++i) {
         constants.editedLights[i] = {edits.lights[i].center, edits.lights[i].flux};
         constants.editedAxes[i] = {edits.lights[i].axis, edits.lights[i].radius};
-        four(constants.editedReaches, i) = edits.lights[i].reach;
+        constants.editedLimits[i] = {edits.lights[i].reach, edits.lights[i].part, 0, 0};
     }
     constants.editedEverywhere = edits.everywhere;
+    constants.editedEverywherePart = edits.everywherePart;
 }
 
 }  // namespace conelight::light

@@ -8,13 +8,12 @@
 namespace conelight::light {
 namespace {
 
-// Of a directional light: where more of it is another, all light is.
-constexpr float kMostOfSun = 0.5f;
+// A sun that turns by an angle moves what it lights through a window by about its part of this one, rad: how large a
+// window is from what it lights.
+constexpr float kWindow = 0.25f;
 constexpr float kPi = glm::pi<float>();
 
 float brightness(const glm::vec3& color) { return (color.r + color.g + color.b) / 3; }
-
-float sum(const glm::vec3& color) { return glm::dot(glm::abs(color), glm::vec3(1)); }
 
 // In place of the intensity, of a light with a falloff of its own.
 float farAway(const Light& light) { return light.customFalloff ? 1 / light.falloff.z : 1.0f; }
@@ -65,18 +64,21 @@ class Changes {
             other.intensity = is.intensity;
             if (onlyMoved(other, is) && was.position == is.position) {
                 other.intensity = glm::abs(is.intensity - was.intensity);
-                return addWhole(other);
+                return addWhole(other, partOf(was.intensity, is.intensity));
             }
         }
         if (was.enabled) addWhole(was);
         if (is.enabled) addWhole(is);
     }
-    void addWhole(const Light& light) {
-        if (!light.enabled || sum(light.intensity) == 0) return;
-        if (const auto edit = placeOf(light))
-            put(*edit);
-        else
+    void addWhole(const Light& light, float part = std::numeric_limits<float>::max()) {
+        if (!light.enabled || brightness(light.intensity) == 0) return;
+        auto edit = placeOf(light);
+        if (!edit) {
             change_.isAnything = true;
+            return;
+        }
+        edit->part = part;
+        put(*edit);
     }
 
   private:
@@ -95,9 +97,11 @@ class Changes {
         edit->center = 0.5f * (was.position + is.position);
         edit->radius += 0.5f * step;
         edit->reach = 2 * step;
+        edit->part = 1;
         if (turn > 0) {
             // What it sweeps is a part of its beam, however far away.
-            edit->flux *= std::min(turn / beamOf(is) + step / extent_, 1.0f);
+            edit->part = std::min(turn / beamOf(is) + step / extent_, 1.0f);
+            edit->flux *= edit->part;
             edit->reach = std::numeric_limits<float>::max();
         }
         if (edit->flux > 0 && (step > 0 || turn > 0)) put(*edit);
@@ -106,14 +110,11 @@ class Changes {
         return light.type == LightType::Spot ? std::max(light.outerAngle, 1e-3f) : glm::half_pi<float>();
     }
     void addSun(const Light& was, const Light& is) {
-        const glm::vec3 before = directionOf(was), now = directionOf(is);
-        float other = 0, all = 0;
-        for (int channel = 0; channel < 3; ++channel) {
-            other += glm::distance(was.intensity[channel] * before, is.intensity[channel] * now) / 3;
-            all += std::max(was.intensity[channel], is.intensity[channel]) / 3;
-        }
-        if (other > kMostOfSun * all || was.castsShadow != is.castsShadow) change_.isAnything = true;
-        change_.everywhere += other;
+        if (was.castsShadow != is.castsShadow) change_.isAnything = true;
+        const float turn = glm::distance(directionOf(was), directionOf(is));
+        const glm::vec3 dimmed = glm::abs(is.intensity - was.intensity);
+        change_.everywhere += brightness(dimmed) + turn * brightness(glm::max(is.intensity, was.intensity));
+        change_.everywherePart += partOf(was.intensity, is.intensity) + turn / kWindow;
     }
 
     float extent_;
@@ -121,6 +122,14 @@ class Changes {
 };
 
 }  // namespace
+
+float partOf(const glm::vec3& was, const glm::vec3& is) {
+    float part = 0;
+    for (int channel = 0; channel < 3; ++channel)
+        if (is[channel] != was[channel])
+            part = std::max(part, std::abs(is[channel] - was[channel]) / was[channel]);
+    return part;
+}
 
 std::optional<LightEdit> placeOf(const Light& light) {
     if (!hasPlace(light)) return std::nullopt;

@@ -14,11 +14,14 @@ namespace conelight::light {
 // As a light edit what a light does, all of it; none: it has no place, or does not fall off as light does.
 std::optional<LightEdit> placeOf(const Light& light);
 
+// By how much of what it was a colour is another, in the channel where that is most; infinite where there was none.
+float partOf(const glm::vec3& was, const glm::vec3& is);
+
 class LightEdits {
   public:
     struct Change {
         std::vector<LightEdit> lights;
-        float everywhere = 0;     // as in EditList
+        float everywhere = 0, everywherePart = 0;  // as in EditList
         float power = 0;          // of what changed, W: sum of fluxes, of what moved by the part that it moved
         bool isAnything = false;  // there is nothing to go by
     };

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
+
+#include "light/sky_edits.h"
 
 namespace conelight::test {
 namespace {
@@ -97,7 +100,20 @@ TEST_F(LightEditsTest, AreasShineByTheirFlux) {
     EXPECT_FALSE(light::placeOf(old));
 }
 
-// The sun is everywhere: what it brings changes by the angle, and where it comes or goes all is another.
+// However much a lamp brings, by half of it nothing changes by more than half.
+TEST_F(LightEditsTest, DimmedLampsChangeAPart) {
+    look();
+    lights_[0].intensity = {1, 1, 0.5f};
+    EXPECT_NEAR(look().lights[0].part, 0.5f, 1e-6f);
+    lights_[0].intensity = {1, 1, 0.6f};
+    EXPECT_NEAR(look().lights[0].part, 0.2f, 1e-6f);
+    lights_[0].intensity = glm::vec3(0);
+    EXPECT_NEAR(look().lights[0].part, 1, 1e-6f);
+    lights_[0].intensity = glm::vec3(0.1f);
+    EXPECT_GT(look().lights[0].part, 1e30f);
+}
+
+// The sun is everywhere. What it brings changes by the angle.
 TEST_F(LightEditsTest, SunsChangeEverywhere) {
     lights_ = {sunAt(0.2f)};
     EXPECT_TRUE(look().isAnything);
@@ -106,10 +122,34 @@ TEST_F(LightEditsTest, SunsChangeEverywhere) {
     EXPECT_FALSE(later.isAnything);
     EXPECT_TRUE(later.lights.empty());
     EXPECT_NEAR(later.everywhere, 0.03f, 1e-4f);
-    lights_ = {sunAt(1.2f)};
+    EXPECT_NEAR(later.everywherePart, 0.04f, 1e-4f);
+    lights_[0].intensity = glm::vec3(2);
+    EXPECT_NEAR(look().everywherePart, 1.0f / 3, 1e-4f);
+    lights_.clear();
     EXPECT_TRUE(look().isAnything);
-    lights_[0].intensity = glm::vec3(1);
-    EXPECT_TRUE(look().isAnything);
+}
+
+Environment pictureOf(const std::vector<glm::vec3>& radiance) {
+    Environment environment;
+    environment.image = std::make_shared<EnvironmentImage>(EnvironmentImage{2, 2, radiance});
+    return environment;
+}
+
+TEST(SkyEditsTest, SkiesChangeByTheirMean) {
+    light::SkyEdits edits;
+    const glm::vec3 one(1), two(2);
+    EXPECT_TRUE(edits.look(one, {}).isAnything);
+    const auto brighter = edits.look({1.1f, 1.1f, 1.1f}, {});
+    EXPECT_NEAR(brighter.irradiance, 2 * kPi * 0.1f, 1e-4f);
+    EXPECT_NEAR(brighter.part, 0.1f, 1e-4f);
+    EXPECT_EQ(edits.look({1.1f, 1.1f, 1.1f}, {}).part, 0);
+    EXPECT_TRUE(edits.look({0, 0, 0}, pictureOf({one, one, one, one})).isAnything);
+    EXPECT_NEAR(edits.look({0, 0, 0}, pictureOf({one, two, one, one})).part, 0.25f, 1e-4f);
+    Environment dimmed = pictureOf({one, two, one, one});
+    dimmed.strength = 0.8f;
+    EXPECT_NEAR(edits.look({0, 0, 0}, dimmed).part, 0.2f, 1e-4f);
+    dimmed.rotation = 0.1f;
+    EXPECT_TRUE(edits.look({0, 0, 0}, dimmed).isAnything);
 }
 
 }  // namespace

@@ -155,9 +155,9 @@ TEST_F(EditPlacesTest, LightsArePlacesUnlessTheyAreMostOfTheLight) {
     EXPECT_TRUE(places_.look(*scene_));
 }
 
-// A cube of edge 2 and emission 1, as its sphere.
+// A cube of edge 2 and emission 1, as a light.
 TEST_F(EditPlacesTest, WhatEmitsIsALightAndAThing) {
-    constexpr float kFlux = kPi * 4 * kPi * 3;
+    constexpr float kFlux = kPi * 24;
     places_.look(*scene_);
     move(kBoxes, {0.01f, 0, 0});
     const light::SceneEdits moved = places_.look(*scene_);
