@@ -242,12 +242,14 @@ void run(const FlickerOptions& options) {
 void addScoreFlicker(CLI::App& score) {
     auto options = std::make_shared<FlickerOptions>();
     CLI::App* command = score.add_subcommand(
-        "flicker", "error that comes and goes along a path of the camera, of an object, of a light or of the day");
+        "flicker",
+        "error that comes and goes along a path of the camera, of an object, of a light or of the day");
     command->add_option("scenes", options->scenes, "scene files or builtin:NAME")->required();
     command
         ->add_option("--path", options->path,
                      "orbit=DEGREES about the target, dolly=PART of the way to it, object=NAME:X,Y,Z in m, "
-                     "light=NAME:X,Y,Z in m, clip=NAME of the scene, or the file of a camera path (docs/reference/camera_path.md)")
+                     "light=NAME:X,Y,Z in m, clip=NAME of the scene, or the file of a camera path "
+                     "(docs/reference/camera_path.md)")
         ->capture_default_str()
         ->type_name("PATH");
     command->add_option("--frames", options->frames, "along the path")

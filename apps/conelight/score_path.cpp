@@ -11,10 +11,11 @@ namespace conelight::program {
 namespace {
 
 [[noreturn]] void badPath(const std::string& text) {
-    throw Error(ErrorKind::Usage,
-                "--path: '" + text +
-                    "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, light=NAME:X,Y,Z, clip=NAME "
-                    "or the file of a camera path would be right");
+    throw Error(
+        ErrorKind::Usage,
+        "--path: '" + text +
+            "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, light=NAME:X,Y,Z, clip=NAME "
+            "or the file of a camera path would be right");
 }
 
 // 0 at the first frame, 1 at the last.

@@ -19,7 +19,9 @@ class ScorePath {
 
     // What the scene is to be opened with; null: no clip.
     io::SceneAnimation* animation() { return kind_ == Kind::Clip ? &animation_ : nullptr; }
-    bool movesScene() const { return kind_ == Kind::Object || kind_ == Kind::Light || kind_ == Kind::Clip || hours_; }
+    bool movesScene() const {
+        return kind_ == Kind::Object || kind_ == Kind::Light || kind_ == Kind::Clip || hours_;
+    }
     Camera cameraAt(const Camera& start, int index, int count) const;
     // Throws Error(Usage) for an object, a light or a clip that `scene` has not.
     Scene sceneAt(const Scene& scene, int index, int count) const;

@@ -18,7 +18,8 @@ uint updatesKept(uint updates, vec3 position, vec3 radiance) {
     changed += partOfIrradiance(cache.editedEverywhere, radiance, cache.editedEverywherePart);
     for (uint i = 0u; i < cache.lightEdits; ++i) {
         uint at = editPlace(i);
-        changed += partOfLight(position, radiance, cache.editedLights[at], cache.editedAxes[at], cache.editedLimits[at]);
+        changed += partOfLight(position, radiance, cache.editedLights[at], cache.editedAxes[at],
+                               cache.editedLimits[at]);
     }
     float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
@@ -37,6 +38,6 @@ void main() {
     vec3 voxel = vec3(unpackVoxel(texelFetch(voxelFaces, int(face)).w));
     vec3 position = grid.origin + grid.voxelSize * (voxel + 0.5);
 #endif
-    states[face].counts = (counts & 0xffff0000u) |
-                          updatesKept(counts & CACHE_UPDATES_MASK, position, states[face].irradiance);
+    states[face].counts =
+        (counts & 0xffff0000u) | updatesKept(counts & CACHE_UPDATES_MASK, position, states[face].irradiance);
 }

@@ -62,8 +62,8 @@ struct PixelRayConstants {
     // ---- 512 B
     float editedEverywhere;
     float editedEverywherePart;
+    float shortestLightMean;  // where light is another
     uint pad0;
-    uint pad1;
     vec4 editedLights[CHANGED_PLACES];
     vec4 editedAxes[CHANGED_PLACES];
     vec4 editedLimits[CHANGED_PLACES];

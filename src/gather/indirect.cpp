@@ -116,6 +116,7 @@ base::Steps Indirect::addPass(const gl::Device& device, const RayInputs& inputs,
     const bool steady = &gathered == &lamps_ || inputs.lit.steady();
     const int grown = steady ? history.passes / kFramesPerPass : 0;
     next.shortest = std::max(kUnsettledMean, grown);
+    next.shortestOfLight = std::max(std::min(history.passes + 1, kUnsettledMean), grown);
     next.shortestOfLobes = std::max(1, grown);
     co_await gathered.rays.gatherInSteps(device, inputs, next);
     ++history.passes;

@@ -43,10 +43,15 @@ void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const ligh
     const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
     constants.longestMean = static_cast<float>(changed ? longest : shortest);
     constants.shortestMean = static_cast<float>(shortest);
-    constants.shortestLobeMean = changed && !changed->ofLight() && pass.shortestOfLobes > 0
-                                     ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
-                                     : constants.shortestMean;
+    constants.shortestLobeMean = constants.shortestLightMean = constants.shortestMean;
     if (!changed) return;
+    const auto atMost = [&](int passes) {
+        return passes > 0 ? static_cast<float>(std::min(passes, longest)) : constants.shortestMean;
+    };
+    constants.shortestLightMean = atMost(pass.shortestOfLight);
+    // A lobe may show anything that a light shines on.
+    if (changed->most) constants.shortestLobeMean = constants.shortestLightMean;
+    if (!changed->ofLight()) constants.shortestLobeMean = atMost(pass.shortestOfLobes);
     light::putEdits(constants, *changed);
 }
 

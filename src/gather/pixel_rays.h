@@ -51,7 +51,7 @@ struct RayPass {
     const gl::Buffer* lookupCounters = nullptr;  // not null: what rays look up is added (shared/lookups.h)
     // Passes that are averaged at most at what changed last (LitVoxels::changed), and those of what smooth surfaces show
     // of it; 0: `longest`.
-    int shortest = 0, shortestOfLobes = 0;
+    int shortest = 0, shortestOfLobes = 0, shortestOfLight = 0;
 };
 
 // Pixels lowest <= p < end.

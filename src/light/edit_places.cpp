@@ -11,7 +11,7 @@
 namespace conelight::light {
 namespace {
 
-// Where more of a scene's light is another, updates begin anew everywhere: what they gather soon tells how bright all is.
+// Where more of a scene's light is another, most is.
 constexpr float kMostOfLight = 0.5f;
 
 const gpu::Material& materialOf(const scene::GpuScene& scene, std::size_t index) {
@@ -78,7 +78,8 @@ LightEdit lightsTogether(const Places<LightEdit>& lights, std::size_t begin, std
 LightEdit glowOf(const Aabb& box, const glm::vec3& emission) {
     const glm::vec3 e = box.extent();
     const float area = 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
-    return {.center = box.center(), .flux = glm::pi<float>() * area * (emission.r + emission.g + emission.b) / 3};
+    return {.center = box.center(),
+            .flux = glm::pi<float>() * area * (emission.r + emission.g + emission.b) / 3};
 }
 
 }  // namespace
@@ -135,8 +136,9 @@ bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
     return known;
 }
 
-// Whether most of a scene's light is another, where there is nothing else that shines: then all of it is.
+// Of lamps and what emits that is said only where nothing else shines.
 bool EditPlaces::mostIsOther(const scene::GpuScene& scene) const {
+    if (edits_.everywherePart > kMostOfLight) return true;
     const Scene& source = scene.source();
     if (source.sky != glm::vec3(0) || source.environment.used()) return false;
     float power = lightPower_;
@@ -166,7 +168,7 @@ bool EditPlaces::lookAtLights(const scene::GpuScene& scene) {
     }
     lit_ = scene.lightRevision();
     skyLit_ = scene.skyRevision();
-    return known && edits_.everywherePart <= kMostOfLight;
+    return known;
 }
 
 SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
@@ -179,7 +181,8 @@ SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
     if (!lookAtLights(scene)) known = false;
     lightCount_ = edits_.lights.size();
     if (!lookAtInstances(scene)) known = false;
-    if (!known || (edits_.ofLight() && mostIsOther(scene))) return std::nullopt;
+    if (!known) return std::nullopt;
+    edits_.most = edits_.ofLight() && mostIsOther(scene);
     const auto isBeam = [](const LightEdit& light) { return light.axis != glm::vec3(0); };
     const bool tooMany = edits_.lights.size() > kMost;
     if (tooMany && std::any_of(edits_.lights.begin(), edits_.lights.end(), isBeam)) return std::nullopt;

@@ -18,7 +18,7 @@ class EditPlaces {
 
     // Spheres round what came or went, and round where things moved or bent, by which part of their size; lights that
     // changed, and what emits; sky and suns. None: nothing to go by, light may be another everywhere: at the first look, for
-    // another scene, for what is unlit, and where most of the light is another. Costs four comparisons where nothing changed.
+    // another scene, and for what is unlit. Costs four comparisons where nothing changed.
     SceneEdits look(const scene::GpuScene& scene);
 
   private:
@@ -37,10 +37,10 @@ class EditPlaces {
     LightEdits lights_;
     SkyEdits sky_;
     std::vector<Entry> entries_;
-    EditList edits_;              // of this look; the first `lightCount_` of its lights are those of the scene
+    EditList edits_;  // of this look; the first `lightCount_` of its lights are those of the scene
     std::size_t lightCount_ = 0;
-    float lightPower_ = 0;        // of these, W
-    float glow_ = 0;              // of all that emits, W
+    float lightPower_ = 0;  // of these, W
+    float glow_ = 0;        // of all that emits, W
 };
 
 }  // namespace conelight::light

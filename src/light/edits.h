@@ -20,9 +20,9 @@ struct EditSphere {
 // A light that changed, in world space.
 struct LightEdit {
     glm::vec3 center{0};
-    float radius = 0;    // m, that it may be beside the centre
-    float flux = 0;      // W, mean of the channels: by how much it is another
-    glm::vec3 axis{0};   // unit, of a spot, whose light is anywhere along it; zero: it shines to all sides
+    float radius = 0;   // m, that it may be beside the centre
+    float flux = 0;     // W, mean of the channels: by how much it is another
+    glm::vec3 axis{0};  // unit, of a spot, whose light is anywhere along it; zero: it shines to all sides
     // m. Farther away, at the distance d, a light that has only moved is another by reach / d of the flux.
     float reach = std::numeric_limits<float>::max();
     float part = std::numeric_limits<float>::max();  // of the irradiance at a place it changes no more
@@ -33,6 +33,7 @@ struct EditList {
     std::vector<LightEdit> lights;
     // By which irradiance may be another at any place, W/m^2, mean of the channels, but by no more than a part of it.
     float everywhere = 0, everywherePart = 0;
+    bool most = false;  // of the scene's light is another
     bool empty() const { return places.empty() && lights.empty() && everywhere == 0; }
     bool ofLight() const { return !lights.empty() || everywhere > 0; }
 };

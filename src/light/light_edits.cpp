@@ -35,7 +35,8 @@ float turnedBy(const Light& was, const Light& is) {
     if (was.type == LightType::Spot) return chord;
     const glm::vec3 before = halfAxis(was), now = halfAxis(is);
     const float area = std::max(glm::length(before), glm::length(now));
-    if (area > 0) chord = std::max(chord, std::min(glm::distance(before, now), glm::distance(before, -now)) / area);
+    if (area > 0)
+        chord = std::max(chord, std::min(glm::distance(before, now), glm::distance(before, -now)) / area);
     return chord;
 }
 
@@ -147,8 +148,8 @@ std::optional<LightEdit> placeOf(const Light& light) {
         case LightType::Rect:
         case LightType::Disk:
             edit.radius = glm::length(light.halfU) + glm::length(light.halfV);
-            edit.flux = kPi * intensity * (light.type == LightType::Disk ? kPi : 4.0f) *
-                        glm::length(halfAxis(light));
+            edit.flux =
+                kPi * intensity * (light.type == LightType::Disk ? kPi : 4.0f) * glm::length(halfAxis(light));
             break;
         default:
             edit.flux = 4 * kPi * intensity;
@@ -163,7 +164,8 @@ LightEdits::Change LightEdits::look(const std::vector<Light>& lights, float exte
     const std::size_t most = std::min(lights_.size(), lights.size());
     std::size_t first = 0, last = 0;
     while (first < most && lights_[first] == lights[first]) ++first;
-    while (last < most - first && lights_[lights_.size() - 1 - last] == lights[lights.size() - 1 - last]) ++last;
+    while (last < most - first && lights_[lights_.size() - 1 - last] == lights[lights.size() - 1 - last])
+        ++last;
     Change change;
     Changes changes(extent, change);
     const std::size_t end = lights.size() - last, oldEnd = lights_.size() - last;

@@ -22,7 +22,7 @@ class LightEdits {
     struct Change {
         std::vector<LightEdit> lights;
         float everywhere = 0, everywherePart = 0;  // as in EditList
-        float power = 0;          // of what changed, W: sum of fluxes, of what moved by the part that it moved
+        float power = 0;  // of what changed, W: sum of fluxes, of what moved by the part that it moved
         bool isAnything = false;  // there is nothing to go by
     };
     // `extent`: of the scene, m.

@@ -61,11 +61,13 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     }
     SceneEdits changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
+    // Updates begin anew everywhere: what they gather soon tells how bright all is.
+    const SceneEdits near = changed && changed->most ? std::nullopt : changed;
     const bool changes = inTheDark || otherSources || otherSettings;
     if (inTheDark || otherVoxels)
-        co_await cache_.adoptInSteps(device, inputs.voxels, changed);
+        co_await cache_.adoptInSteps(device, inputs.voxels, near);
     else if (changes)
-        cache_.restartAverages(changed);
+        cache_.restartAverages(near);
     if (changes) changed_ = changed;
     voxelsFrom_ = inputs.voxels.revision();
     voxelSettings_ = inputs.voxels.settings();
@@ -155,7 +157,7 @@ base::Steps LitVoxels::redrawInSteps(const gl::Device& device, const Inputs& inp
 }
 
 // What far faces have kept of the light before goes by twice as many.
-int LitVoxels::wantedUpdates() const { return (changed_ ? 2 : 1) * settings_.updates; }
+int LitVoxels::wantedUpdates() const { return (changed_ && !changed_->most ? 2 : 1) * settings_.updates; }
 
 int LitVoxels::updates() const {
     const int made = cache_.updates();

@@ -99,7 +99,7 @@ class LitVoxels {
     IrradianceCache cache_;
     std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;
-    SceneEdits changed_;     // by the last change; some: it was taken as one of near faces alone
+    SceneEdits changed_;      // by the last change; some: it was taken as one of near faces alone
     bool directDue_ = false;  // direct light is that of other voxels or lights
 
     // What it was made from.

@@ -9,8 +9,8 @@ namespace conelight::light {
 class SkyEdits {
   public:
     struct Change {
-        float irradiance = 0;  // W/m^2, mean of the channels: by which it may be another below an open sky
-        float part = 0;        // of what it was
+        float irradiance = 0;     // W/m^2, mean of the channels: by which it may be another below an open sky
+        float part = 0;           // of what it was
         bool isAnything = false;  // there is nothing to go by
     };
     Change look(const glm::vec3& sky, const Environment& environment);

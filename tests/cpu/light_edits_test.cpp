@@ -2,8 +2,8 @@
 // Lights that changed: where, by how much, and how far that reaches.
 #include "light/light_edits.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <memory>
 
 #include "light/sky_edits.h"

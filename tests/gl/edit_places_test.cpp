@@ -137,22 +137,35 @@ TEST_F(EditPlacesTest, WhatIsUnlitAndTheSkyChangeEverything) {
     EXPECT_TRUE(places_.look(*scene_));
 }
 
-TEST_F(EditPlacesTest, LightsArePlacesUnlessTheyAreMostOfTheLight) {
+TEST_F(EditPlacesTest, LampsArePlaces) {
     places_.look(*scene_);
     std::vector<Light> lights = source_.lights;
     lights[0].intensity = glm::vec3(0.8f);
     scene_->setLights(lights);
     const light::SceneEdits dimmed = places_.look(*scene_);
     ASSERT_TRUE(dimmed && dimmed->lights.size() == 1 && dimmed->places.empty());
+    EXPECT_FALSE(dimmed->most);
     EXPECT_NEAR(dimmed->lights[0].flux, 4 * kPi * 0.2f, 1e-4f);
     lights[0].intensity = glm::vec3(40);  // and the cube, which counts as 10
     scene_->setLights(lights);
-    EXPECT_FALSE(places_.look(*scene_));
+    EXPECT_TRUE(places_.look(*scene_)->most);
     scene_->setSky(glm::vec3(0.1f));
     places_.look(*scene_);
     lights[0].intensity = glm::vec3(1);
     scene_->setLights(lights);
-    EXPECT_TRUE(places_.look(*scene_));
+    EXPECT_FALSE(places_.look(*scene_)->most);
+}
+
+TEST_F(EditPlacesTest, SunsAndSkiesAreEverywhere) {
+    scene_->setSky(glm::vec3(1));
+    places_.look(*scene_);
+    scene_->setSky(glm::vec3(0.9f));
+    const light::SceneEdits little = places_.look(*scene_);
+    ASSERT_TRUE(little && little->lights.empty() && little->places.empty());
+    EXPECT_NEAR(little->everywherePart, 0.1f, 1e-4f);
+    EXPECT_TRUE(little->ofLight() && !little->most);
+    scene_->setSky(glm::vec3(0.3f));
+    EXPECT_TRUE(places_.look(*scene_)->most);
 }
 
 // A cube of edge 2 and emission 1, as a light.

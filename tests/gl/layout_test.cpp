@@ -137,6 +137,21 @@ std::vector<Struct> structsOfPictures() {
     };
 }
 
+std::vector<Struct> cacheStructs() {
+    return {
+        ROW(LitFace, albedo, radiance, irradiance0, irradiance1),
+        ROW(FaceCache, irradiance, counts),
+        ROW(CacheOrder, number, searches, binsPerChunk, chunkCount),
+        ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
+            reflections, fireflyClamp, restartsNear, placeCount, draw, places, placeParts, lightEdits,
+            editedEverywhere, editedEverywherePart, pad0, editedLights, editedAxes, editedLimits),
+        ROW(CacheBalance, cached, pad0, fresh, pad1, returned, pad2, correction, pad3),
+        ROW(CacheBalancing, groups, weight, cachedBefore, step, rounds, pad0, pad1, pad2),
+        ROW(CacheRanges, part, parts, pad0, pad1),
+        ROW(CacheReprojection, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
+    };
+}
+
 std::vector<Struct> otherStructs() {
     return {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, shadowTan,
@@ -152,7 +167,7 @@ std::vector<Struct> otherStructs() {
             oldUp, longestMean, specularLimit, reach, inverseVoxelSize, reflections, fireflyClamp, lowestX,
             lowestY, oldParallel, motionScaleX, motionScaleY, motionStep, reuse, shortestMean,
             shortestLobeMean, placeCount, lightEdits, places, placeParts, editedEverywhere,
-            editedEverywherePart, pad0, pad1, editedLights, editedAxes, editedLimits),
+            editedEverywherePart, shortestLightMean, pad0, editedLights, editedAxes, editedLimits),
         ROW(FrameConstants, clipFromWorld, eye, width, viewForward, height, viewRight, footprint, viewUp,
             blending, parallel, pad0, pad1, pad2),
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,
@@ -185,16 +200,6 @@ std::vector<Struct> otherStructs() {
         ROW(VoxelScroll, shifts, finer),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel),
         ROW(FaceMaterial, albedo, emission, emissionBArea, lobe),
-        ROW(LitFace, albedo, radiance, irradiance0, irradiance1),
-        ROW(FaceCache, irradiance, counts),
-        ROW(CacheOrder, number, searches, binsPerChunk, chunkCount),
-        ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
-            reflections, fireflyClamp, restartsNear, placeCount, draw, places, placeParts, lightEdits,
-            editedEverywhere, editedEverywherePart, pad0, editedLights, editedAxes, editedLimits),
-        ROW(CacheBalance, cached, pad0, fresh, pad1, returned, pad2, correction, pad3),
-        ROW(CacheBalancing, groups, weight, cachedBefore, step, rounds, pad0, pad1, pad2),
-        ROW(CacheRanges, part, parts, pad0, pad1),
-        ROW(CacheReprojection, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
             faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, editedBricks, pad0),
     };
@@ -203,6 +208,7 @@ std::vector<Struct> otherStructs() {
 const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = [] {
         std::vector<Struct> all = otherStructs();
+        for (Struct& one : cacheStructs()) all.push_back(std::move(one));
         for (Struct& glass : glassStructs()) all.push_back(std::move(glass));
         for (Struct& one : structsOfPictures()) all.push_back(std::move(one));
         all.push_back(ROW(HostSurfaceConstants, worldFromView, depthRow, depthOfEye, depthScale, depthOffset,

@@ -157,7 +157,8 @@ TEST_F(LightFieldChanges, LightStaysWhileLampsChange) {
     HostPicture host(scene_, lens());
     drawn(host);
     scene_.lights.push_back({.intensity = glm::vec3(0.02f), .position = glm::vec3(-0.8f)});
-    const auto errorAfter = [&](const char* name, const std::function<void(std::vector<Light>&, int)>& change) {
+    const auto errorAfter = [&](const char* name,
+                                const std::function<void(std::vector<Light>&, int)>& change) {
         LightField field;
         settle(field, settings);
         Scene scene = scene_;
