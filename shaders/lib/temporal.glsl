@@ -125,17 +125,6 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     return SoFar(scale * sum.value, scale * sum.variance);
 }
 
-// The part of what is seen at `position`, where it is `mean`, that lights have changed.
-float changedByLights(vec3 position, vec3 mean) {
-    float changed = partOfIrradiance(pixelRays.editedEverywhere, mean, pixelRays.editedEverywherePart);
-    for (uint i = 0u; i < pixelRays.lightEdits; ++i) {
-        uint at = editPlace(i);
-        changed += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at],
-                               pixelRays.editedLimits[at]);
-    }
-    return changed;
-}
-
 // Passes that a mean is of at most at `position`, where it is `mean`: the fewer, the nearer to what changed. Of light the
 // shortest lags by no more than one pass is noisy.
 float longestMeanAt(vec3 position, vec3 mean) {
@@ -144,9 +133,14 @@ float longestMeanAt(vec3 position, vec3 mean) {
         uint at = editPlace(i);
         changed += changedPart(position, pixelRays.places[at], pixelRays.placeParts[at >> 2][at & 3u]);
     }
-    float light = changedByLights(position, mean);
-    float shortest =
-        clamp(IRRADIANCE_NOISE / max(light, 1e-6), pixelRays.shortestLightMean, pixelRays.shortestMean);
+    float light = 1e-6;
+    for (uint i = 0u; i < pixelRays.lightEdits; ++i) {
+        uint at = editPlace(i);
+        light += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at],
+                             pixelRays.editedLimits[at]);
+    }
+    light += partOfIrradiance(pixelRays.editedEverywhere, mean, pixelRays.editedEverywherePart);
+    float shortest = clamp(IRRADIANCE_NOISE / light, pixelRays.shortestLightMean, pixelRays.shortestMean);
     return clamp(1.0 / weightAfterChange(changed + light), shortest, pixelRays.longestMean);
 }
 
