@@ -84,26 +84,27 @@ LightEdit glowOf(const Aabb& box, const glm::vec3& emission) {
 
 }  // namespace
 
-// Of what emits, what it has changed.
+// Of what emits, what it has changed. It moved by a `part` of its size; 1: it is somewhere else, or not known.
 void EditPlaces::addGlow(const Entry& was, const Entry& is, float part) {
-    const bool same = was.emission == is.emission && !was.bounds.empty();
-    if (same && is.emission == glm::vec3(0)) return;
-    if (same) {
-        LightEdit moved = glowOf(is.bounds, is.emission);
-        if (part < 1) {
-            moved.reach = 2 * part * glm::length(is.bounds.extent());
-            moved.part = 1;
-        }
-        edits_.lights.push_back(moved);
-        return;
+    const bool sameEmission = was.emission == is.emission;
+    const bool samePlace = was.bounds.min == is.bounds.min && was.bounds.max == is.bounds.max;
+    std::vector<LightEdit>& lights = edits_.lights;
+    const auto add = [&](const Entry& entry, const glm::vec3& emission) {
+        if (!entry.bounds.empty() && emission != glm::vec3(0))
+            lights.push_back(glowOf(entry.bounds, emission));
+        return !entry.bounds.empty() && emission != glm::vec3(0);
+    };
+    if (sameEmission && part < 1) {
+        if (!add(is, is.emission)) return;
+        lights.back().reach = 2 * part * glm::length(is.bounds.extent());
+        lights.back().part = 1;
+    } else if (!sameEmission && samePlace) {
+        if (add(is, glm::abs(is.emission - was.emission)))
+            lights.back().part = partOf(was.emission, is.emission);
+    } else {
+        if (!samePlace) add(was, was.emission);
+        add(is, is.emission);
     }
-    Aabb box = was.bounds;
-    box.grow(is.bounds);
-    if (box.empty()) return;
-    LightEdit other = glowOf(box, glm::abs(is.emission - was.emission));
-    if (was.bounds.min == is.bounds.min && was.bounds.max == is.bounds.max)
-        other.part = partOf(was.emission, is.emission);
-    edits_.lights.push_back(other);
 }
 
 // Instances that are others.

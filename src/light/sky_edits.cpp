@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <utility>
 
 namespace conelight::light {
 namespace {
@@ -18,26 +17,39 @@ bool isComparable(const Environment& was, const Environment& is) {
 
 float channels(const glm::vec3& radiance) { return (radiance.r + radiance.g + radiance.b) / 3; }
 
-// Over all directions, means of two skies: how far they are apart, and of the first.
-std::pair<double, double> apartAndMean(const Environment& was, const Environment& is) {
-    if (!is.used()) return {0, 0};
-    double apart = 0, mean = 0, all = 0;
-    const auto width = static_cast<std::size_t>(is.image->width);
-    for (int row = 0; row < is.image->height; ++row) {
-        const float* const before = &was.image->radiance[static_cast<std::size_t>(row) * width].r;
-        const float* const now = &is.image->radiance[static_cast<std::size_t>(row) * width].r;
-        float difference = 0, sum = 0;
-        for (std::size_t i = 0; i < 3 * width; ++i) {
-            difference += std::abs(was.strength * before[i] - is.strength * now[i]);
-            sum += was.strength * before[i];
-        }
+// Over all directions and channels, the mean of ofRow(first float, count) over the rows of a picture.
+template <typename OfRow>
+double meanOf(const EnvironmentImage& image, const OfRow& ofRow) {
+    double sum = 0, all = 0;
+    const std::size_t count = 3 * static_cast<std::size_t>(image.width);
+    for (int row = 0; row < image.height; ++row) {
         const double solidAngle =
-            std::sin(glm::pi<double>() * (row + 0.5) / static_cast<double>(is.image->height));
-        apart += solidAngle * static_cast<double>(difference);
-        mean += solidAngle * static_cast<double>(sum);
-        all += solidAngle * static_cast<double>(3 * width);
+            std::sin(glm::pi<double>() * (row + 0.5) / static_cast<double>(image.height));
+        sum += solidAngle * static_cast<double>(ofRow(static_cast<std::size_t>(row) * count, count));
+        all += solidAngle * static_cast<double>(count);
     }
-    return {apart / all, mean / all};
+    return sum / all;
+}
+
+double meanOf(const EnvironmentImage& image) {
+    const float* const texels = &image.radiance[0].r;
+    return meanOf(image, [&](std::size_t first, std::size_t count) {
+        float sum = 0;
+        for (std::size_t i = first; i < first + count; ++i) sum += texels[i];
+        return sum;
+    });
+}
+
+// How far two skies are apart.
+double meanApart(const Environment& was, const Environment& is) {
+    const float* const before = &was.image->radiance[0].r;
+    const float* const now = &is.image->radiance[0].r;
+    return meanOf(*is.image, [&](std::size_t first, std::size_t count) {
+        float sum = 0;
+        for (std::size_t i = first; i < first + count; ++i)
+            sum += std::abs(was.strength * before[i] - is.strength * now[i]);
+        return sum;
+    });
 }
 
 }  // namespace
@@ -46,9 +58,16 @@ SkyEdits::Change SkyEdits::look(const glm::vec3& sky, const Environment& environ
     Change change;
     if (sky == sky_ && environment == environment_) return change;
     if (isComparable(environment_, environment)) {
-        auto [apart, mean] = apartAndMean(environment_, environment);
-        apart += static_cast<double>(channels(glm::abs(sky - sky_)));
-        mean += static_cast<double>(channels(sky_));
+        auto apart = static_cast<double>(channels(glm::abs(sky - sky_)));
+        auto mean = static_cast<double>(channels(sky_));
+        if (environment.used()) {
+            if (mean_ < 0) mean_ = meanOf(*environment_.image);
+            mean += static_cast<double>(environment_.strength) * mean_;
+            // Of one picture only the strength is another.
+            const auto dimmed = static_cast<double>(std::abs(environment_.strength - environment.strength));
+            apart += environment.image == environment_.image ? dimmed * mean_
+                                                             : meanApart(environment_, environment);
+        }
         // As of half of all directions, since below the horizon there may be none of it.
         change.irradiance = 2 * glm::pi<float>() * static_cast<float>(apart);
         change.part = static_cast<float>(apart / mean);
@@ -56,6 +75,7 @@ SkyEdits::Change SkyEdits::look(const glm::vec3& sky, const Environment& environ
     } else {
         change.isAnything = true;
     }
+    if (environment.image != environment_.image) mean_ = -1;
     sky_ = sky;
     environment_ = environment;
     return change;

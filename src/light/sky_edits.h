@@ -18,6 +18,7 @@ class SkyEdits {
   private:
     glm::vec3 sky_{0};
     Environment environment_;
+    double mean_ = -1;  // of its picture, over all directions and channels; negative: not known
 };
 
 }  // namespace conelight::light

@@ -146,8 +146,12 @@ TEST(SkyEditsTest, SkiesChangeByTheirMean) {
     EXPECT_TRUE(edits.look({0, 0, 0}, pictureOf({one, one, one, one})).isAnything);
     EXPECT_NEAR(edits.look({0, 0, 0}, pictureOf({one, two, one, one})).part, 0.25f, 1e-4f);
     Environment dimmed = pictureOf({one, two, one, one});
-    dimmed.strength = 0.8f;
+    dimmed.strength = 0.8f;  // of another picture that is the same, and of one
     EXPECT_NEAR(edits.look({0, 0, 0}, dimmed).part, 0.2f, 1e-4f);
+    dimmed.strength = 0.6f;
+    const auto darker = edits.look({0, 0, 0}, dimmed);
+    EXPECT_NEAR(darker.part, 0.25f, 1e-4f);
+    EXPECT_NEAR(darker.irradiance, 2 * kPi * 1.25f * 0.2f, 1e-4f);
     dimmed.rotation = 0.1f;
     EXPECT_TRUE(edits.look({0, 0, 0}, dimmed).isAnything);
 }

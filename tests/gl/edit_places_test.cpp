@@ -177,6 +177,12 @@ TEST_F(EditPlacesTest, WhatEmitsIsALightAndAThing) {
     ASSERT_TRUE(moved && moved->lights.size() == 1 && moved->places.size() == 1);
     EXPECT_NEAR(moved->lights[0].flux, kFlux, 0.01f);
     EXPECT_NEAR(moved->lights[0].reach, 0.02f, 1e-3f);
+    move(kBoxes, {20, 0, 0});  // somewhere else: its light is gone here and is there
+    const light::SceneEdits gone = places_.look(*scene_);
+    ASSERT_TRUE(gone && gone->lights.size() == 2);
+    EXPECT_NEAR(gone->lights[1].center.x - gone->lights[0].center.x, 20, 1e-3f);
+    EXPECT_GT(gone->lights[0].reach, 1e9f);
+    EXPECT_GT(gone->lights[1].part, 1e9f);
     scene_->setSky(glm::vec3(0.1f));
     places_.look(*scene_);
     Material brighter = source_.materials.back();
