@@ -133,6 +133,18 @@ TEST_F(ScoreTest, AClipOfShapesIsAPath) {
     EXPECT_GT(json["runs"][0]["unsteadiness"][0].get<double>(), 0.001);
 }
 
+// A light that moves changes the picture; one that stays where it is leaves it.
+TEST_F(ScoreTest, ALightIsAPath) {
+    const auto unsteadiness = [&](const char* travel) {
+        const nlohmann::json json =
+            scored(std::string("flicker builtin:cornell-point --path light=lamp:") + travel +
+                   " --frames 3 --modes phong --component full --size 24x24 --spp 1");
+        return json["runs"][0]["unsteadiness"][0].get<double>();
+    };
+    EXPECT_GT(unsteadiness("0.3,0,0"), 0.001);
+    EXPECT_LT(unsteadiness("0,0,0"), 1e-6);
+}
+
 TEST_F(ScoreTest, AThresholdThatIsExceededIsStatus1) {
     const std::string shift =
         "score shift builtin:cornell-point --modes thesis --shifts 1 --size 32x32 "
@@ -154,6 +166,9 @@ TEST_F(ScoreTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(conelight("score flicker builtin:cornell --path zoom=3"), 2, "orbit");
     expectOneLine(conelight("score flicker builtin:cornell --path object=nobody:1,0,0"), 2,
                   "info SCENE --objects");
+    expectOneLine(conelight("score flicker builtin:cornell --path light=nobody:1,0,0"), 2,
+                  "no light 'nobody'");
+    expectOneLine(conelight("score flicker builtin:cornell --path light=nobody"), 2, "light=NAME:X,Y,Z");
     expectOneLine(conelight("score flicker builtin:cornell --path clip=walk"), 2, "clip");
     expectOneLine(conelight("score leak --angles 10,x"), 2, "--angles");
     expectOneLine(conelight("score leak --dark nobody --size 16x16"), 2, "nobody");
