@@ -200,6 +200,33 @@ TEST_F(LightFieldChanges, NothingIsLeftOfAWay) {
     EXPECT_NEAR(hostMean(diffuseOf(field, host)) / hostMean(expected), 1, 0.01);
 }
 
+// Nor of one that a lamp has gone, in small steps or in one. Other random numbers are worth 1 %, also where all faces forget.
+TEST_F(LightFieldChanges, NothingIsLeftOfALampsWay) {
+    Settings settings = hostSettings();
+    settings.traced.pixelRays = 0;
+    HostPicture host(scene_, lens());
+    drawn(host);
+    const Scene start = scene_;
+    for (const float step : {0.02f, 0.8f}) {
+        scene_ = start;
+        LightField field;
+        settle(field, settings);
+        const std::vector<glm::vec4> before = diffuseOf(field, host);
+        for (int frame = 0; frame < (step < 0.1f ? 20 : 1); ++frame) {
+            scene_.lights[0].position.x -= step;
+            field.setLights(scene_.lights);
+            field.update();
+        }
+        while (field.update() < settings.traced.cacheUpdates) continue;
+        LightField fresh;
+        settle(fresh, settings);
+        const std::vector<glm::vec4> expected = diffuseOf(fresh, host);
+        EXPECT_LT(hostDifference(diffuseOf(field, host), expected), 0.06) << step;
+        EXPECT_NEAR(hostMean(diffuseOf(field, host)) / hostMean(expected), 1, 0.02) << step;
+        EXPECT_GT(hostDifference(before, expected), 0.1) << step;
+    }
+}
+
 // When the lamps go out, a view's means let go of their light: a plain mean would keep a tenth of it after so many frames.
 TEST_F(LightFieldChanges, OldLightLeavesTheMeans) {
     Settings settings = hostSettings();
