@@ -43,15 +43,16 @@ void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const ligh
     const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
     constants.longestMean = static_cast<float>(changed ? longest : shortest);
     constants.shortestMean = static_cast<float>(shortest);
-    constants.shortestLobeMean = constants.shortestLightMean = constants.shortestMean;
-    if (!changed) return;
     const auto atMost = [&](int passes) {
         return passes > 0 ? static_cast<float>(std::min(passes, longest)) : constants.shortestMean;
     };
     constants.shortestLightMean = atMost(pass.shortestOfLight);
+    constants.shortestLobeMean = constants.shortestMean;
+    if (!changed) return;
     // A lobe may show anything that a light shines on.
-    if (changed->most) constants.shortestLobeMean = constants.shortestLightMean;
-    if (!changed->ofLight()) constants.shortestLobeMean = atMost(pass.shortestOfLobes);
+    constants.shortestLobeMean = !changed->ofLight() ? atMost(pass.shortestOfLobes)
+                                 : changed->most     ? constants.shortestLightMean
+                                                     : constants.shortestMean;
     light::putEdits(constants, *changed);
 }
 

@@ -11,13 +11,10 @@
 
 namespace conelight::light {
 
-// A place has a center and a radius, m.
+// A place has a center and a radius, m. The sphere round those from `begin` on, up to `end`.
 template <typename Place>
-using Places = std::vector<Place>;
-
-// The sphere round places from `begin` on, up to `end`.
-template <typename Place>
-std::pair<glm::vec3, float> sphereRound(const Places<Place>& places, std::size_t begin, std::size_t end) {
+std::pair<glm::vec3, float> sphereRound(const std::vector<Place>& places, std::size_t begin,
+                                        std::size_t end) {
     Aabb box;
     for (std::size_t i = begin; i < end; ++i) {
         box.grow(places[i].center - places[i].radius);
@@ -32,7 +29,7 @@ std::pair<glm::vec3, float> sphereRound(const Places<Place>& places, std::size_t
 
 // Where to divide a group, whose places it puts in order: in the middle of where they are.
 template <typename Place>
-std::size_t dividedAt(Places<Place>& places, std::size_t begin, std::size_t end) {
+std::size_t dividedAt(std::vector<Place>& places, std::size_t begin, std::size_t end) {
     Aabb box;
     for (std::size_t i = begin; i < end; ++i) box.grow(places[i].center);
     const glm::vec3 extent = box.extent();
@@ -49,7 +46,7 @@ std::size_t dividedAt(Places<Place>& places, std::size_t begin, std::size_t end)
 // At most `most` in place of all: the largest group is divided until there are as many. together(places, begin, end) is
 // one in place of those.
 template <typename Place, typename Together>
-Places<Place> fewer(Places<Place> places, std::size_t most, const Together& together) {
+std::vector<Place> fewer(std::vector<Place> places, std::size_t most, const Together& together) {
     if (places.size() <= most) return places;
     struct Group {
         std::size_t begin, end;
@@ -69,7 +66,7 @@ Places<Place> fewer(Places<Place> places, std::size_t most, const Together& toge
         *largest = group(begin, cut);
         groups.push_back(group(cut, end));
     }
-    Places<Place> some;
+    std::vector<Place> some;
     for (const Group& group : groups) some.push_back(group.place);
     return some;
 }

@@ -7,16 +7,13 @@
 #include <utility>
 
 #include "light/edit_groups.h"
+#include "math/brightness.h"
 
 namespace conelight::light {
 namespace {
 
 // Where more of a scene's light is another, most is.
 constexpr float kMostOfLight = 0.5f;
-
-const gpu::Material& materialOf(const scene::GpuScene& scene, std::size_t index) {
-    return scene.materials()[scene.instances()[index].material];
-}
 
 EditSphere sphereOf(const Aabb& box, float part = 1) {
     return {box.center(), 0.5f * glm::length(box.extent()), part};
@@ -52,7 +49,7 @@ float movedPart(const scene::GpuScene& scene, const scene::InstanceChange& chang
 }
 
 // In place of those from `begin` on, up to `end`: round all of them, with what they are together seen from afar.
-EditSphere spheresTogether(const Places<EditSphere>& places, std::size_t begin, std::size_t end) {
+EditSphere spheresTogether(const std::vector<EditSphere>& places, std::size_t begin, std::size_t end) {
     const auto [center, radius] = sphereRound(places, begin, end);
     EditSphere round{center, radius, 0};
     for (std::size_t i = begin; i < end; ++i) {
@@ -63,7 +60,7 @@ EditSphere spheresTogether(const Places<EditSphere>& places, std::size_t begin, 
     return round;
 }
 
-LightEdit lightsTogether(const Places<LightEdit>& lights, std::size_t begin, std::size_t end) {
+LightEdit lightsTogether(const std::vector<LightEdit>& lights, std::size_t begin, std::size_t end) {
     const auto [center, radius] = sphereRound(lights, begin, end);
     LightEdit all{.center = center, .radius = radius, .reach = 0, .part = 0};
     for (std::size_t i = begin; i < end; ++i) {
@@ -76,35 +73,32 @@ LightEdit lightsTogether(const Places<LightEdit>& lights, std::size_t begin, std
 
 // What emits, as a light: its box, by its brightest point.
 LightEdit glowOf(const Aabb& box, const glm::vec3& emission) {
+    if (box.empty() || emission == glm::vec3(0)) return {};
     const glm::vec3 e = box.extent();
     const float area = 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
-    return {.center = box.center(),
-            .flux = glm::pi<float>() * area * (emission.r + emission.g + emission.b) / 3};
+    return {.center = box.center(), .flux = glm::pi<float>() * area * math::brightness(emission)};
 }
 
 }  // namespace
 
 // Of what emits, what it has changed. It moved by a `part` of its size; 1: it is somewhere else, or not known.
 void EditPlaces::addGlow(const Entry& was, const Entry& is, float part) {
+    const auto add = [&](LightEdit glow) {
+        if (glow.flux > 0) edits_.lights.push_back(glow);
+    };
     const bool sameEmission = was.emission == is.emission;
     const bool samePlace = was.bounds.min == is.bounds.min && was.bounds.max == is.bounds.max;
-    std::vector<LightEdit>& lights = edits_.lights;
-    const auto add = [&](const Entry& entry, const glm::vec3& emission) {
-        if (!entry.bounds.empty() && emission != glm::vec3(0))
-            lights.push_back(glowOf(entry.bounds, emission));
-        return !entry.bounds.empty() && emission != glm::vec3(0);
-    };
+    LightEdit glow = glowOf(is.bounds, is.emission);
     if (sameEmission && part < 1) {
-        if (!add(is, is.emission)) return;
-        lights.back().reach = 2 * part * glm::length(is.bounds.extent());
-        lights.back().part = 1;
+        glow.reach = 2 * part * glm::length(is.bounds.extent());
+        glow.part = 1;
     } else if (!sameEmission && samePlace) {
-        if (add(is, glm::abs(is.emission - was.emission)))
-            lights.back().part = partOf(was.emission, is.emission);
-    } else {
-        if (!samePlace) add(was, was.emission);
-        add(is, is.emission);
+        glow = glowOf(is.bounds, glm::abs(is.emission - was.emission));
+        glow.part = partOf(was.emission, is.emission);
+    } else if (!samePlace) {
+        add(glowOf(was.bounds, was.emission));
     }
+    add(glow);
 }
 
 // Instances that are others.
@@ -113,40 +107,33 @@ bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
     const std::vector<scene::InstanceChange>& changes = instances_.look(scene);
     auto change = changes.begin();
     entries_.resize(scene.instances().size());
-    glow_ = 0;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const bool placed = change != changes.end() && change->index == i;
         // One that neither moved nor bent looks other than it did, all of it.
         const float part = placed ? movedPart(scene, *change++) : 1;
         Entry& entry = entries_[i];
-        const gpu::Material& material = materialOf(scene, i);
-        if (entry.revision != scene.instanceRevision(i)) {
-            const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), material.emission,
-                            (material.flags & MATERIAL_UNLIT) != 0};
-            if (entry.unlit || now.unlit) known = false;
-            Aabb box = entry.bounds;
-            box.grow(now.bounds);
-            if (!box.empty()) {
-                edits_.places.push_back(sphereOf(box, part));
-                addGlow(entry, now, part);
-            }
-            entry = now;
-        }
-        if (entry.emission != glm::vec3(0)) glow_ += glowOf(entry.bounds, entry.emission).flux;
+        if (entry.revision == scene.instanceRevision(i)) continue;
+        const gpu::Material& material = scene.materials()[scene.instances()[i].material];
+        const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), material.emission,
+                        (material.flags & MATERIAL_UNLIT) != 0};
+        if (entry.unlit || now.unlit) known = false;
+        Aabb box = entry.bounds;
+        box.grow(now.bounds);
+        if (!box.empty()) edits_.places.push_back(sphereOf(box, part));
+        addGlow(entry, now, part);
+        entry = now;
     }
     return known;
 }
 
-// Of lamps and what emits that is said only where nothing else shines.
+// Whether most of a scene's light is another. Of lamps and what emits that is said only where nothing else shines.
 bool EditPlaces::mostIsOther(const scene::GpuScene& scene) const {
     if (edits_.everywherePart > kMostOfLight) return true;
     const Scene& source = scene.source();
     if (source.sky != glm::vec3(0) || source.environment.used()) return false;
-    float power = lightPower_;
-    const float extent = glm::length(scene.bounds().extent());
-    for (std::size_t i = lightCount_; i < edits_.lights.size(); ++i)
-        power += edits_.lights[i].flux * std::min(edits_.lights[i].reach / extent, 1.0f);
-    return power > kMostOfLight * (lights_.power() + glow_);
+    float all = lights_.flux();
+    for (const Entry& entry : entries_) all += glowOf(entry.bounds, entry.emission).flux;
+    return changedFlux(edits_.lights, glm::length(scene.bounds().extent())) > kMostOfLight * all;
 }
 
 // Lamps, suns and sky that are others.
@@ -154,12 +141,11 @@ bool EditPlaces::lookAtLights(const scene::GpuScene& scene) {
     const Scene& source = scene.source();
     bool known = true;
     if (lit_ != scene.lightRevision()) {
-        LightEdits::Change lights = lights_.look(source.lights, glm::length(scene.bounds().extent()));
+        LightEdits::Change lights = lights_.look(source.lights);
         known = !lights.isAnything;
         edits_.lights = std::move(lights.lights);
         edits_.everywhere = lights.everywhere;
         edits_.everywherePart = lights.everywherePart;
-        lightPower_ = lights.power;
     }
     if (skyLit_ != scene.skyRevision()) {
         const SkyEdits::Change sky = sky_.look(source.sky, source.environment);
@@ -175,12 +161,10 @@ bool EditPlaces::lookAtLights(const scene::GpuScene& scene) {
 SceneEdits EditPlaces::look(const scene::GpuScene& scene) {
     bool known = scene_ == scene.identity();
     edits_ = {};
-    lightPower_ = 0;
     const bool sameLights = lit_ == scene.lightRevision() && skyLit_ == scene.skyRevision();
     if (known && sameLights && instances_.at() == scene.geometryRevision()) return edits_;
     scene_ = scene.identity();
     if (!lookAtLights(scene)) known = false;
-    lightCount_ = edits_.lights.size();
     if (!lookAtInstances(scene)) known = false;
     if (!known) return std::nullopt;
     edits_.most = edits_.ofLight() && mostIsOther(scene);

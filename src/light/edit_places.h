@@ -37,10 +37,7 @@ class EditPlaces {
     LightEdits lights_;
     SkyEdits sky_;
     std::vector<Entry> entries_;
-    EditList edits_;  // of this look; the first `lightCount_` of its lights are those of the scene
-    std::size_t lightCount_ = 0;
-    float lightPower_ = 0;  // of these, W
-    float glow_ = 0;        // of all that emits, W
+    EditList edits_;  // of this look
 };
 
 }  // namespace conelight::light

@@ -3,6 +3,7 @@
 // change"): places of things and of lights. On the CPU.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -37,6 +38,14 @@ struct EditList {
     bool empty() const { return places.empty() && lights.empty() && everywhere == 0; }
     bool ofLight() const { return !lights.empty() || everywhere > 0; }
 };
+
+// Of the sum of fluxes, what is another, W: all that changed, and of what moved the part that it is another by over the
+// `extent` of a scene, m.
+inline float changedFlux(const std::vector<LightEdit>& lights, float extent) {
+    float sum = 0;
+    for (const LightEdit& light : lights) sum += light.flux * std::min(light.reach / extent, 1.0f);
+    return sum;
+}
 
 // All of a change; none: it may be anything.
 using SceneEdits = std::optional<EditList>;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gl/gl.h"
+#include "math/brightness.h"
 #include "scene/surroundings.h"
 
 namespace conelight::light {
@@ -21,8 +22,6 @@ constexpr int kWidest = 4096;
 // Columns of the cells that rays are drawn in: 0.35 degrees, less than the sun. Coarser ones blur its shadows.
 constexpr int kCellColumns = 1024;
 constexpr float kLargestTexel = 32768.0f;  // of RGB9E5, as glm packs it
-
-float brightness(const glm::vec3& radiance) { return (radiance.r + radiance.g + radiance.b) / 3; }
 
 // Walker's alias table of weights, as shaders read it: {share that stays, as float bits; where the rest goes}.
 std::vector<glm::uvec2> aliasTable(const std::vector<double>& weights) {
@@ -94,7 +93,7 @@ void EnvironmentTable::update(const Environment& environment) {
         double flux = 0;
         for (std::size_t i = 0; i < texels.size(); ++i) {
             const int row = static_cast<int>(i) / image.width;
-            weights.push_back(static_cast<double>(brightness(glm::unpackF3x9_E1x5(texels[i]))) *
+            weights.push_back(static_cast<double>(math::brightness(glm::unpackF3x9_E1x5(texels[i]))) *
                               scene::texelSolidAngle(image, row));
             flux += weights.back();
         }

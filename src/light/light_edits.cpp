@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "math/brightness.h"
+
 namespace conelight::light {
 namespace {
 
@@ -12,8 +14,6 @@ namespace {
 // window is from what it lights.
 constexpr float kWindow = 0.25f;
 constexpr float kPi = glm::pi<float>();
-
-float brightness(const glm::vec3& color) { return (color.r + color.g + color.b) / 3; }
 
 // In place of the intensity, of a light with a falloff of its own.
 float farAway(const Light& light) { return light.customFalloff ? 1 / light.falloff.z : 1.0f; }
@@ -53,7 +53,7 @@ bool onlyMoved(const Light& was, const Light& is) {
 
 class Changes {
   public:
-    Changes(float extent, LightEdits::Change& change) : extent_(extent), change_(change) {}
+    explicit Changes(LightEdits::Change& change) : change_(change) {}
 
     void add(const Light& was, const Light& is) {
         if (was == is) return;
@@ -72,22 +72,19 @@ class Changes {
         if (is.enabled) addWhole(is);
     }
     void addWhole(const Light& light, float part = std::numeric_limits<float>::max()) {
-        if (!light.enabled || brightness(light.intensity) == 0) return;
+        if (!light.enabled || math::brightness(light.intensity) == 0) return;
         auto edit = placeOf(light);
         if (!edit) {
             change_.isAnything = true;
             return;
         }
         edit->part = part;
-        put(*edit);
+        change_.lights.push_back(*edit);
     }
 
   private:
-    void put(const LightEdit& edit) {
-        change_.lights.push_back(edit);
-        change_.power += edit.flux * std::min(edit.reach / extent_, 1.0f);
-    }
-    // A step aside changes what lies to its side by twice its part of the distance; a turn by how far it sweeps.
+    // A step aside changes what lies to its side by twice its part of the distance. A turn changes the part of the beam
+    // that it sweeps, however far away.
     void addMove(const Light& was, const Light& is) {
         auto edit = placeOf(is);
         if (!edit) {
@@ -95,17 +92,20 @@ class Changes {
             return;
         }
         const float step = glm::distance(was.position, is.position), turn = turnedBy(was, is);
+        if (edit->flux == 0) return;
         edit->center = 0.5f * (was.position + is.position);
         edit->radius += 0.5f * step;
-        edit->reach = 2 * step;
-        edit->part = 1;
         if (turn > 0) {
-            // What it sweeps is a part of its beam, however far away.
-            edit->part = std::min(turn / beamOf(is) + step / extent_, 1.0f);
-            edit->flux *= edit->part;
-            edit->reach = std::numeric_limits<float>::max();
+            LightEdit swept = *edit;
+            swept.part = std::min(turn / beamOf(is), 1.0f);
+            swept.flux *= swept.part;
+            change_.lights.push_back(swept);
         }
-        if (edit->flux > 0 && (step > 0 || turn > 0)) put(*edit);
+        if (step > 0) {
+            edit->reach = 2 * step;
+            edit->part = 1;
+            change_.lights.push_back(*edit);
+        }
     }
     static float beamOf(const Light& light) {
         return light.type == LightType::Spot ? std::max(light.outerAngle, 1e-3f) : glm::half_pi<float>();
@@ -114,11 +114,11 @@ class Changes {
         if (was.castsShadow != is.castsShadow) change_.isAnything = true;
         const float turn = glm::distance(directionOf(was), directionOf(is));
         const glm::vec3 dimmed = glm::abs(is.intensity - was.intensity);
-        change_.everywhere += brightness(dimmed) + turn * brightness(glm::max(is.intensity, was.intensity));
+        change_.everywhere +=
+            math::brightness(dimmed) + turn * math::brightness(glm::max(is.intensity, was.intensity));
         change_.everywherePart += partOf(was.intensity, is.intensity) + turn / kWindow;
     }
 
-    float extent_;
     LightEdits::Change& change_;
 };
 
@@ -135,7 +135,7 @@ float partOf(const glm::vec3& was, const glm::vec3& is) {
 std::optional<LightEdit> placeOf(const Light& light) {
     if (!hasPlace(light)) return std::nullopt;
     LightEdit edit{.center = light.position};
-    const float intensity = brightness(light.intensity) * farAway(light);
+    const float intensity = math::brightness(light.intensity) * farAway(light);
     switch (light.type) {
         case LightType::Spot:
             edit.flux = 2 * kPi * intensity * (1 - std::cos(0.5f * (light.innerAngle + light.outerAngle)));
@@ -160,14 +160,14 @@ std::optional<LightEdit> placeOf(const Light& light) {
 
 // Lights keep their order: between those that are the same at both ends, they are compared one by one, and where their
 // number is another they go and come.
-LightEdits::Change LightEdits::look(const std::vector<Light>& lights, float extent) {
+LightEdits::Change LightEdits::look(const std::vector<Light>& lights) {
     const std::size_t most = std::min(lights_.size(), lights.size());
     std::size_t first = 0, last = 0;
     while (first < most && lights_[first] == lights[first]) ++first;
     while (last < most - first && lights_[lights_.size() - 1 - last] == lights[lights.size() - 1 - last])
         ++last;
     Change change;
-    Changes changes(extent, change);
+    Changes changes(change);
     const std::size_t end = lights.size() - last, oldEnd = lights_.size() - last;
     if (end == oldEnd) {
         for (std::size_t i = first; i < end; ++i) changes.add(lights_[i], lights[i]);
@@ -176,12 +176,16 @@ LightEdits::Change LightEdits::look(const std::vector<Light>& lights, float exte
         for (std::size_t i = first; i < end; ++i) changes.addWhole(lights[i]);
     }
     lights_ = lights;
-    power_ = 0;
+    return change;
+}
+
+float LightEdits::flux() const {
+    float all = 0;
     for (const Light& light : lights_) {
         const auto edit = placeOf(light);
-        if (light.enabled) power_ += edit ? edit->flux : std::numeric_limits<float>::infinity();
+        if (light.enabled) all += edit ? edit->flux : std::numeric_limits<float>::infinity();
     }
-    return change;
+    return all;
 }
 
 }  // namespace conelight::light

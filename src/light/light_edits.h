@@ -22,17 +22,14 @@ class LightEdits {
     struct Change {
         std::vector<LightEdit> lights;
         float everywhere = 0, everywherePart = 0;  // as in EditList
-        float power = 0;  // of what changed, W: sum of fluxes, of what moved by the part that it moved
-        bool isAnything = false;  // there is nothing to go by
+        bool isAnything = false;                   // there is nothing to go by
     };
-    // `extent`: of the scene, m.
-    Change look(const std::vector<Light>& lights, float extent);
-    // Of the last look: of all lights that have a place, W; infinite with one that has none.
-    float power() const { return power_; }
+    Change look(const std::vector<Light>& lights);
+    // Of the last look: of all lights that are on, W; infinite with one that has no place.
+    float flux() const;
 
   private:
     std::vector<Light> lights_;
-    float power_ = 0;
 };
 
 }  // namespace conelight::light

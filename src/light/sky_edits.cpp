@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "math/brightness.h"
+#include "scene/surroundings.h"
+
 namespace conelight::light {
 namespace {
 
@@ -15,16 +18,13 @@ bool isComparable(const Environment& was, const Environment& is) {
            was.image->height == is.image->height;
 }
 
-float channels(const glm::vec3& radiance) { return (radiance.r + radiance.g + radiance.b) / 3; }
-
 // Over all directions and channels, the mean of ofRow(first float, count) over the rows of a picture.
 template <typename OfRow>
 double meanOf(const EnvironmentImage& image, const OfRow& ofRow) {
     double sum = 0, all = 0;
     const std::size_t count = 3 * static_cast<std::size_t>(image.width);
     for (int row = 0; row < image.height; ++row) {
-        const double solidAngle =
-            std::sin(glm::pi<double>() * (row + 0.5) / static_cast<double>(image.height));
+        const double solidAngle = scene::texelSolidAngle(image, row);
         sum += solidAngle * static_cast<double>(ofRow(static_cast<std::size_t>(row) * count, count));
         all += solidAngle * static_cast<double>(count);
     }
@@ -58,8 +58,8 @@ SkyEdits::Change SkyEdits::look(const glm::vec3& sky, const Environment& environ
     Change change;
     if (sky == sky_ && environment == environment_) return change;
     if (isComparable(environment_, environment)) {
-        auto apart = static_cast<double>(channels(glm::abs(sky - sky_)));
-        auto mean = static_cast<double>(channels(sky_));
+        auto apart = static_cast<double>(math::brightness(glm::abs(sky - sky_)));
+        auto mean = static_cast<double>(math::brightness(sky_));
         if (environment.used()) {
             if (mean_ < 0) mean_ = meanOf(*environment_.image);
             mean += static_cast<double>(environment_.strength) * mean_;

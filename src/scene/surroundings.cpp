@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/brightness.h"
+
 namespace conelight {
 namespace {
 
@@ -77,8 +79,6 @@ glm::vec3 interpolated(const EnvironmentImage& image, const glm::vec2& uv) {
                     glm::mix(texel(image, x0, y1), texel(image, x1, y1), x - left), y - top);
 }
 
-float brightness(const glm::vec3& radiance) { return (radiance.r + radiance.g + radiance.b) / 3; }
-
 // The mean over a texel of what is interpolated there, as if all texels had one solid angle.
 glm::vec3 meanOver(const EnvironmentImage& image, int x, int y) {
     glm::vec3 sum(0);
@@ -130,7 +130,7 @@ Surroundings::Surroundings(const Scene& scene) : sky_(scene.sky), environment_(s
         double sum = 0;
         for (std::size_t x = 0; x < width; ++x) {
             const glm::vec3 mean = meanOver(image, static_cast<int>(x), static_cast<int>(y));
-            sum += static_cast<double>(brightness(sky_ + environment_.strength * mean));
+            sum += static_cast<double>(math::brightness(sky_ + environment_.strength * mean));
             texelSums_[y * width + x] = static_cast<float>(sum);
         }
         all += sum * texelSolidAngle(image, static_cast<int>(y));
@@ -139,7 +139,7 @@ Surroundings::Surroundings(const Scene& scene) : sky_(scene.sky), environment_(s
     if (!(all > 0)) rowSums_.clear();
 }
 
-bool Surroundings::isBlack() const { return brightness(sky_) <= 0 && !hasPicture(); }
+bool Surroundings::isBlack() const { return math::brightness(sky_) <= 0 && !hasPicture(); }
 
 glm::vec2 Surroundings::turnedUv(const glm::vec3& direction) const {
     glm::vec2 uv = environmentUv(direction);

@@ -25,7 +25,7 @@ Light sunAt(float angle) {
 
 class LightEditsTest : public ::testing::Test {
   protected:
-    light::LightEdits::Change look() { return edits_.look(lights_, kExtent); }
+    light::LightEdits::Change look() { return edits_.look(lights_); }
     std::vector<Light> lights_ = {lampAt({0, 0, 0}, 1), lampAt({4, 0, 0}, 2), lampAt({8, 0, 0}, 3)};
     light::LightEdits edits_;
 };
@@ -38,8 +38,8 @@ TEST_F(LightEditsTest, OnlyWhatChangedIsFound) {
     ASSERT_EQ(brighter.lights.size(), 1u);
     EXPECT_EQ(brighter.lights[0].center, lights_[1].position);
     EXPECT_NEAR(brighter.lights[0].flux, 4 * kPi * 0.5f, 1e-5f);
-    EXPECT_NEAR(brighter.power, 4 * kPi * 0.5f, 1e-5f);
-    EXPECT_NEAR(edits_.power(), 4 * kPi * 6.5f, 1e-4f);
+    EXPECT_NEAR(light::changedFlux(brighter.lights, kExtent), 4 * kPi * 0.5f, 1e-5f);
+    EXPECT_NEAR(edits_.flux(), 4 * kPi * 6.5f, 1e-4f);
     lights_[2].enabled = false;
     const auto off = look();
     ASSERT_EQ(off.lights.size(), 1u);
@@ -67,7 +67,7 @@ TEST_F(LightEditsTest, StepsReachLessFar) {
     const auto step = look();
     ASSERT_EQ(step.lights.size(), 1u);
     EXPECT_NEAR(step.lights[0].reach, 0.02f, 1e-6f);
-    EXPECT_NEAR(step.power, 4 * kPi * 0.02f / kExtent, 1e-5f);
+    EXPECT_NEAR(light::changedFlux(step.lights, kExtent), 4 * kPi * 0.02f / kExtent, 1e-5f);
     lights_[0].position.y = 2;
     lights_[0].intensity.b = 0;
     EXPECT_EQ(look().lights.size(), 2u);
@@ -86,6 +86,14 @@ TEST_F(LightEditsTest, SpotsAreBeams) {
     const auto turned = look();
     ASSERT_EQ(turned.lights.size(), 1u);
     EXPECT_NEAR(turned.lights[0].flux, 0.1f * on.lights[0].flux, 1e-3f);
+    EXPECT_NEAR(turned.lights[0].part, 0.1f, 1e-3f);
+    lights_[0].position.x += 0.03f;  // somebody walks with it, and looks about
+    lights_[0].direction = {0, -1, 0};
+    const auto carried = look();
+    ASSERT_EQ(carried.lights.size(), 2u);
+    EXPECT_NEAR(carried.lights[0].part, 0.1f, 1e-3f);
+    EXPECT_NEAR(carried.lights[1].reach, 0.06f, 1e-4f);
+    EXPECT_NEAR(carried.lights[1].flux, on.lights[0].flux, 1e-4f);
 }
 
 TEST_F(LightEditsTest, AreasShineByTheirFlux) {

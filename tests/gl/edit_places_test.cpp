@@ -126,7 +126,7 @@ TEST_F(EditPlacesTest, ThingsInOnePlaceAreTakenTogether) {
     EXPECT_EQ(whole, 1);
 }
 
-TEST_F(EditPlacesTest, WhatIsUnlitAndTheSkyChangeEverything) {
+TEST_F(EditPlacesTest, WhatIsUnlitAndASkyThatComesChangeEverything) {
     places_.look(*scene_);
     Material unlit = source_.materials[0];
     unlit.unlit = true;
