@@ -248,7 +248,8 @@ void addScoreFlicker(CLI::App& score) {
     command
         ->add_option("--path", options->path,
                      "orbit=DEGREES about the target, dolly=PART of the way to it, object=NAME:X,Y,Z in m, "
-                     "light=NAME:X,Y,Z in m, clip=NAME of the scene, or the file of a camera path "
+                     "light=NAME:X,Y,Z in m, dim=NAME:PART in each second frame, clip=NAME of the scene, or "
+                     "the file of a camera path "
                      "(docs/reference/camera_path.md)")
         ->capture_default_str()
         ->type_name("PATH");

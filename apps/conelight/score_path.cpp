@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 #include "conelight/error.h"
 
@@ -11,11 +12,10 @@ namespace conelight::program {
 namespace {
 
 [[noreturn]] void badPath(const std::string& text) {
-    throw Error(
-        ErrorKind::Usage,
-        "--path: '" + text +
-            "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, light=NAME:X,Y,Z, clip=NAME "
-            "or the file of a camera path would be right");
+    throw Error(ErrorKind::Usage,
+                "--path: '" + text +
+                    "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, light=NAME:X,Y,Z, "
+                    "dim=NAME:PART, clip=NAME or the file of a camera path would be right");
 }
 
 // 0 at the first frame, 1 at the last.
@@ -40,14 +40,16 @@ ScorePath::ScorePath(const std::string& text, const std::string& scene, const Vi
         takeTravel(kind == "light" ? Kind::Light : Kind::Object, value);
         return;
     }
+    if (kind == "dim") {
+        takeDimming(value);
+        return;
+    }
     if (kind == "clip") {
         kind_ = Kind::Clip;
         name_ = value;
         return;
     }
-    char* end = nullptr;
-    amount_ = std::strtof(value.c_str(), &end);
-    if (value.empty() || *end != '\0' || !std::isfinite(amount_)) badPath(text);
+    amount_ = numberIn(value);
     if (kind == "dolly" && amount_ < 1)
         kind_ = Kind::Dolly;
     else if (kind != "orbit")
@@ -60,6 +62,22 @@ void ScorePath::takeTravel(Kind kind, const std::string& value) {
     kind_ = kind;
     name_ = value.substr(0, colon);
     travel_ = parseVec3("--path", value.substr(colon + 1));
+}
+
+void ScorePath::takeDimming(const std::string& value) {
+    const std::size_t colon = value.rfind(':');
+    if (colon == std::string::npos) badPath(text_);
+    kind_ = Kind::Dim;
+    name_ = value.substr(0, colon);
+    amount_ = numberIn(value.substr(colon + 1));
+    if (amount_ > 1) badPath(text_);
+}
+
+float ScorePath::numberIn(const std::string& value) const {
+    char* end = nullptr;
+    const float number = std::strtof(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !std::isfinite(number)) badPath(text_);
+    return number;
 }
 
 Camera ScorePath::cameraAt(const Camera& start, int index, int count) const {
@@ -89,6 +107,7 @@ Scene ScorePath::sceneAt(const Scene& scene, int index, int count) const {
     const glm::vec3 travelled = partOf(index, count) * travel_;
     if (kind_ == Kind::Object) moveObject(moved, travelled);
     if (kind_ == Kind::Light) moveLight(moved, travelled);
+    if (kind_ == Kind::Dim) dim(moved, index % 2 == 0 ? 1 : 1 - amount_);
     return moved;
 }
 
@@ -102,6 +121,29 @@ void ScorePath::moveObject(Scene& scene, const glm::vec3& by) const {
     if (!found)
         throw Error(ErrorKind::Usage,
                     "--path: the scene has no object '" + name_ +
+                        "'; a name that `conelight info SCENE --objects` lists would be right");
+}
+
+// A light, or a material of an object that emits.
+void ScorePath::dim(Scene& scene, float to) const {
+    bool found = false;
+    for (Light& light : scene.lights) {
+        if (light.name != name_) continue;
+        light.intensity *= to;
+        found = true;
+    }
+    std::set<std::size_t> materials;
+    for (const Instance& instance : scene.instances)
+        if (instance.name == name_ && instance.material >= 0)
+            materials.insert(static_cast<std::size_t>(instance.material));
+    for (const std::size_t material : materials) {
+        glm::vec3& emission = scene.materials[material].emission;
+        found = found || emission != glm::vec3(0);
+        emission *= to;
+    }
+    if (!found)
+        throw Error(ErrorKind::Usage,
+                    "--path: the scene has no light and nothing that emits '" + name_ +
                         "'; a name that `conelight info SCENE --objects` lists would be right");
 }
 

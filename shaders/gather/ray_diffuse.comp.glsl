@@ -86,6 +86,11 @@ void main() {
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     SoFar soFar = valueSoFar(pixel, s);
-    float longest = longestMeanAt(s.position, soFar.value.rgb);
+#if OCCLUSION
+    float changed = 0.0;
+#else
+    float changed = scaledToNow(soFar, s.position);
+#endif
+    float longest = longestMeanAt(s.position, changed);
     imageStore(result, pixel, withPass(soFar, s, seen, diffuse ? value : vec3(0.0), longest));
 }

@@ -209,11 +209,11 @@ void setRayCone(Surface s, Brdf b) {
 
 // How many passes are averaged. What a smooth surface shows moves otherwise than the surface: means are short where it or
 // the eye moves.
-float longestMean(ivec2 pixel, Surface s, Brdf b, vec3 mean) {
+float longestMean(ivec2 pixel, Surface s, Brdf b, float light) {
     vec3 axis = 2.0 * dot(s.normal, s.toEye) * s.normal - s.toEye;
     float ofLobe =
-        reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02)) : 1.0;
-    return mix(ofLobe, longestMeanAt(s.position, mean), smoothstep(0.1, 0.5, s.roughness));
+        reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02), light) : 1.0;
+    return mix(ofLobe, longestMeanAt(s.position, light), smoothstep(0.1, 0.5, s.roughness));
 }
 
 void main() {
@@ -272,6 +272,6 @@ void main() {
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     SoFar soFar = valueSoFar(pixel, s);
-    float longest = longestMean(pixel, s, b, soFar.value.rgb);
+    float longest = longestMean(pixel, s, b, scaledToNow(soFar, s.position));
     imageStore(result, pixel, withPass(soFar, s, seen, value, longest));
 }

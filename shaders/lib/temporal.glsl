@@ -125,29 +125,72 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     return SoFar(scale * sum.value, scale * sum.variance);
 }
 
-// Passes that a mean is of at most at `position`, where it is `mean`: the fewer, the nearer to what changed. Of light the
-// shortest lags by no more than one pass is noisy.
-float longestMeanAt(vec3 position, vec3 mean) {
+// Of the light at `position`, where it is `mean`, the part that a change made another. `scaled`: where `mean` has been
+// multiplied by lightScale.
+float changedLight(vec3 position, vec3 mean, bool scaled) {
+    float changed =
+        partOfIrradiance(scaled ? pixelRays.scaledEverywhere : pixelRays.editedEverywhere, mean,
+                         scaled ? pixelRays.scaledEverywherePart : pixelRays.editedEverywherePart);
+    uint end = scaled ? pixelRays.allLightEdits : pixelRays.lightEdits;
+    for (uint i = scaled ? pixelRays.lightEdits : 0u; i < end; ++i) {
+        uint at = editLight(i);
+        changed += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at],
+                               pixelRays.editedLimits[at]);
+    }
+    return changed;
+}
+
+// Whether `position`, where white surfaces have `radiance`, has better light when that is scaled.
+bool isBetterScaled(vec3 position, vec3 radiance) {
+    float irradiance = kThirdOfPi * (radiance.r + radiance.g + radiance.b);
+    LampShares shares;
+    float spread2 = 0.0;
+    for (int step = 0; step <= kSpreadSteps; ++step) {
+        shares = LampShares(0.0, 0.0, 0.0, 0.0);
+        for (uint i = 0u; i < pixelRays.allLightEdits; ++i) {
+            uint at = editLight(i);
+            LampShares one = lampShares(position, spread2, pixelRays.editedLights[at],
+                                        pixelRays.editedAxes[at], pixelRays.editedLimits[at]);
+            addShares(shares, one, i >= pixelRays.lightEdits);
+        }
+        spread2 = step < kSpreadSteps ? spreadMore(spread2, shares, irradiance) : spread2;
+    }
+    vec3 scaled = pixelRays.lightScale * radiance;
+    float scaledIrradiance = kThirdOfPi * (scaled.r + scaled.g + scaled.b);
+    float left = shares.scaled + min(pixelRays.dimmed.z, pixelRays.dimmed.w * scaledIrradiance);
+    float changed = shares.asItWas + min(pixelRays.dimmed.x, pixelRays.dimmed.y * irradiance);
+    return left < kClearlyLess * changed;
+}
+
+// The picture so far with light as it is now, where a factor makes it that; and the part that is another still.
+float scaledToNow(inout SoFar soFar, vec3 position) {
+    bool scales = isBetterScaled(position, soFar.value.rgb);
+    if (scales) {
+        vec3 scaled = pixelRays.lightScale * soFar.value.rgb;
+        float scale = pixelBrightness(scaled) / max(pixelBrightness(soFar.value.rgb), 1e-12);
+        soFar.value.rgb = scaled;
+        soFar.variance *= scale * scale;
+    }
+    return changedLight(position, soFar.value.rgb, scales);
+}
+
+// Passes that a mean is of at most at `position`, where `light` is the part of it that is another: the fewer, the nearer to
+// what changed. Of light the shortest lags by no more than one pass is noisy.
+float longestMeanAt(vec3 position, float light) {
     float changed = 1e-6;
     for (uint i = 0u; i < pixelRays.placeCount; ++i) {
         uint at = editPlace(i);
         changed += changedPart(position, pixelRays.places[at], pixelRays.placeParts[at >> 2][at & 3u]);
     }
-    float light = 1e-6;
-    for (uint i = 0u; i < pixelRays.lightEdits; ++i) {
-        uint at = editPlace(i);
-        light += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at],
-                             pixelRays.editedLimits[at]);
-    }
-    light += partOfIrradiance(pixelRays.editedEverywhere, mean, pixelRays.editedEverywherePart);
-    float shortest = clamp(IRRADIANCE_NOISE / light, pixelRays.shortestLightMean, pixelRays.shortestMean);
+    float shortest =
+        clamp(IRRADIANCE_NOISE / max(light, 1e-6), pixelRays.shortestLightMean, pixelRays.shortestMean);
     return clamp(1.0 / weightAfterChange(changed + light), shortest, pixelRays.longestMean);
 }
 
 // The same of what a smooth surface shows about `axis`: the fewer, the more of what changed is there. What a light shines
 // on may be anywhere.
-float longestLobeMean(vec3 position, vec3 axis, float spread) {
-    float changed = pixelRays.lightEdits > 0u || pixelRays.editedEverywhere > 0.0 ? 1.0 : 1e-6;
+float longestLobeMean(vec3 position, vec3 axis, float spread, float light) {
+    float changed = light > 0.0 ? 1.0 : 1e-6;
     for (uint i = 0u; i < pixelRays.placeCount; ++i)
         changed += changedInLobe(position, axis, spread, pixelRays.places[editPlace(i)]);
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestLobeMean, pixelRays.longestMean);

@@ -60,7 +60,7 @@ void main() {
     // sqrt(n): what came before bounces had settled is soon outweighed.
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
     state.irradiance += (found - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
-    state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
+    state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, CACHE_UPDATES_MASK);
 #if FIND_BACK_FACES
     uint rays = (state.counts >> 16) & 0xffu;
     if (rays + cache.cosineRays < 256u)

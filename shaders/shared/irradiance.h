@@ -65,6 +65,8 @@
 // Of what changed last so many places are known, and so many lights.
 #define CHANGED_PLACES 16u
 #define CHANGED_FOURS 4u  // fours of them
+// As many that are others than they were, and that are others than `lightScale` times that.
+#define CHANGED_LIGHTS 32u
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.
 #define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
@@ -88,7 +90,8 @@
 #define CACHE_RANGE_WORDS 5u
 
 #define CACHE_SHARES 0x8000u
-#define CACHE_UPDATES_MASK 0x7fffu
+#define CACHE_SCALED 0x4000u  // between cache_scale and cache_restart: of CacheConstants::lightScale
+#define CACHE_UPDATES_MASK 0x3fffu
 
 // Upper half of LitFace::irradiance1.
 #define FACE_LOBE_SHIFT 16u  // 9 bit: FaceMaterial::lobe
@@ -144,11 +147,23 @@ struct CacheConstants {
     uint lightEdits;
     float editedEverywhere;  // W/m^2
     float editedEverywherePart;
+    uint allLightEdits;  // from lightEdits on, what is left of a change when light is scaled
+    // ---- 384 B
+    vec3 lightScale;  // times the light that was there
+    float scaledEverywhere;
+    // ---- 400 B
+    float scaledEverywherePart;
     uint pad0;
-    vec4 editedLights[CHANGED_PLACES];  // world space; w: flux, W
-    vec4 editedAxes[CHANGED_PLACES];    // w: radius, m
-    vec4 editedLimits[CHANGED_PLACES];  // reach, m; part
-};                                      // 1152 B
+    uint pad1;
+    uint pad2;
+    // ---- 416 B
+    // Of editedEverywhere, editedEverywherePart and the scaled ones, by which there is more or less light.
+    vec4 dimmed;
+    // ---- 432 B
+    vec4 editedLights[CHANGED_LIGHTS];  // world space; w: flux, W
+    vec4 editedAxes[CHANGED_LIGHTS];    // w: radius, m
+    vec4 editedLimits[CHANGED_LIGHTS];  // reach, m; part; whole, W; 1: there is more or less of it
+};                                      // 1968 B
 
 // The balance of the cache's light (cache_balance), over all faces that gather, by their areas and albedos.
 struct CacheBalance {
@@ -210,7 +225,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 1152);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 1968);
 static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
 static_assert(sizeof(conelight::gpu::CacheBalancing) == 32);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);

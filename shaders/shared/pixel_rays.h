@@ -63,13 +63,24 @@ struct PixelRayConstants {
     float editedEverywhere;
     float editedEverywherePart;
     float shortestLightMean;  // where light is another
+    uint allLightEdits;
+    // ---- 528 B
+    vec3 lightScale;  // 1: of the light of the picture so far
+    float scaledEverywhere;
+    // ---- 544 B
+    float scaledEverywherePart;
     uint pad0;
-    vec4 editedLights[CHANGED_PLACES];
-    vec4 editedAxes[CHANGED_PLACES];
-    vec4 editedLimits[CHANGED_PLACES];
-};  // 1296 B
+    uint pad1;
+    uint pad2;
+    // ---- 560 B
+    vec4 dimmed;
+    // ---- 576 B
+    vec4 editedLights[CHANGED_LIGHTS];
+    vec4 editedAxes[CHANGED_LIGHTS];
+    vec4 editedLimits[CHANGED_LIGHTS];
+};  // 2112 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 1296);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 2112);
 #endif

@@ -78,7 +78,7 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
 
 void Indirect::forget() {
     for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_, &lamps_})
-        one->history = {.view = std::nullopt, .passes = 0, .number = one->history.number};
+        one->history = {.view = std::nullopt, .passes = 0, .number = one->history.number, .light = {}};
 }
 
 // For means that follow what moves.
@@ -118,9 +118,14 @@ base::Steps Indirect::addPass(const gl::Device& device, const RayInputs& inputs,
     next.shortest = std::max(kUnsettledMean, grown);
     next.shortestOfLight = std::max(std::min(history.passes + 1, kUnsettledMean), grown);
     next.shortestOfLobes = std::max(1, grown);
+    const base::Revision light = inputs.lit.sources();
+    next.light = history.light == light                        ? LightSoFar::Now
+                 : history.light == inputs.lit.sourcesBefore() ? LightSoFar::Before
+                                                               : LightSoFar::Unknown;
     co_await gathered.rays.gatherInSteps(device, inputs, next);
     ++history.passes;
     history.view = inputs.surfaces.view();
+    history.light = light;
 }
 
 // Passes of a picture that is finished at once which are those of this view.
@@ -140,6 +145,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
         next.number = static_cast<std::uint32_t>(history.passes);
         co_await gathered.rays.gatherInSteps(device, inputs, next);
         history.view = inputs.surfaces.view();
+        history.light = inputs.lit.sources();
     }
     history.number = static_cast<std::uint32_t>(history.passes);
 }

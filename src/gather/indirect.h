@@ -65,6 +65,7 @@ class Indirect {
         std::optional<gpu::FrameConstants> view;
         int passes = 0;
         std::uint32_t number = 0;  // of the next pass in motion, which gives it random numbers of its own
+        base::Revision light{};    // LitVoxels::sources() of the last pass
     };
     // One of the pictures: its rays, its means, and where it is.
     struct Gathered {

@@ -53,7 +53,8 @@ void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const ligh
     constants.shortestLobeMean = !changed->ofLight() ? atMost(pass.shortestOfLobes)
                                  : changed->most     ? constants.shortestLightMean
                                                      : constants.shortestMean;
-    light::putEdits(constants, *changed);
+    light::putEdits(constants, *changed, pass.light != LightSoFar::Unknown);
+    if (pass.light == LightSoFar::Now) constants.lightScale = glm::vec3(1);
 }
 
 }  // namespace

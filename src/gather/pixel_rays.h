@@ -39,6 +39,9 @@ struct RayInputs {
 // How a pass takes up what was there: with another view or other places, by reprojection.
 enum class Reuse { None = REUSE_NONE, SameView = REUSE_SAME_VIEW, Reproject = REUSE_REPROJECTED };
 
+// Which light a picture so far is of: that before what changed last (LitVoxels::changed), or that of now.
+enum class LightSoFar { Unknown, Before, Now };
+
 // What a pass is to do.
 struct RayPass {
     const TracedSettings& settings;
@@ -52,6 +55,7 @@ struct RayPass {
     // Passes that are averaged at most at what changed last (LitVoxels::changed), and those of what smooth surfaces show
     // of it; 0: `longest`.
     int shortest = 0, shortestOfLobes = 0, shortestOfLight = 0;
+    LightSoFar light = LightSoFar::Unknown;  // of what was there
 };
 
 // Pixels lowest <= p < end.

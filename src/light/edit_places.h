@@ -7,6 +7,7 @@
 
 #include "light/edits.h"
 #include "light/light_edits.h"
+#include "light/light_scale.h"
 #include "light/sky_edits.h"
 #include "scene/instance_history.h"
 
@@ -26,18 +27,27 @@ class EditPlaces {
         base::Revision revision;
         Aabb bounds;
         glm::vec3 emission{0};
+        std::size_t looks = 0;  // all else of its material, as a number
         bool unlit = false;
     };
+    // What emits, or did. It moved by a part of its size; 1: it is somewhere else, or not known.
+    struct Glow {
+        Entry was, is;
+        float part = 0;
+    };
     bool lookAtInstances(const scene::GpuScene& scene);
-    bool mostIsOther(const scene::GpuScene& scene) const;
-    void addGlow(const Entry& was, const Entry& is, float part);
-    bool lookAtLights(const scene::GpuScene& scene);
+    void lookAtLights(const scene::GpuScene& scene);
+    LightChange lightChange(const glm::vec3& scale) const;
+    bool mostIsOther(const scene::GpuScene& scene, const LightChange& change) const;
+    bool judgeLight(const scene::GpuScene& scene);
+    std::optional<ScaledChange> scaledChange(const scene::GpuScene& scene) const;
     base::Revision scene_, lit_, skyLit_;
     scene::InstanceHistory instances_;
     LightEdits lights_;
     SkyEdits sky_;
     std::vector<Entry> entries_;
-    EditList edits_;  // of this look
+    std::vector<Glow> glows_;  // at this look
+    EditList edits_;           // of this look
 };
 
 }  // namespace conelight::light

@@ -27,16 +27,34 @@ struct LightEdit {
     // m. Farther away, at the distance d, a light that has only moved is another by reach / d of the flux.
     float reach = std::numeric_limits<float>::max();
     float part = std::numeric_limits<float>::max();  // of the irradiance at a place it changes no more
+    float whole = 0;                                 // W, all that it sends out; 0: another edit says so
+    bool goes = false;                               // all that it brings is elsewhere, but no less
 };
 
-struct EditList {
-    std::vector<EditSphere> places;
+struct LightChange {
     std::vector<LightEdit> lights;
     // By which irradiance may be another at any place, W/m^2, mean of the channels, but by no more than a part of it.
     float everywhere = 0, everywherePart = 0;
-    bool most = false;  // of the scene's light is another
-    bool empty() const { return places.empty() && lights.empty() && everywhere == 0; }
+    // The same without what is only elsewhere, as of a sun that turns: by which there is more or less of it.
+    float dimmed = 0, dimmedPart = 0;
+    bool isAnything = false;  // there is nothing to go by
     bool ofLight() const { return !lights.empty() || everywhere > 0; }
+    // Of lights from `first` on, other edits say all that they send out.
+    void haveSaid(std::size_t first) {
+        for (; first < lights.size(); ++first) lights[first].whole = 0;
+    }
+};
+
+// What is left of a change of light when all light that was there is taken `scale` times.
+struct ScaledChange : LightChange {
+    glm::vec3 scale{1};
+};
+
+struct EditList : LightChange {
+    std::vector<EditSphere> places;
+    std::optional<ScaledChange> scaled;  // where what changed was for the most part there, brighter or darker
+    bool most = false;                   // of the scene's light is another, whether it is scaled or not
+    bool empty() const { return places.empty() && !ofLight(); }
 };
 
 // Of the sum of fluxes, what is another, W: all that changed, and of what moved the part that it is another by over the
@@ -50,22 +68,41 @@ inline float changedFlux(const std::vector<LightEdit>& lights, float extent) {
 // All of a change; none: it may be anything.
 using SceneEdits = std::optional<EditList>;
 
-// Into a block of shaders (lib/edits.glsl). At most CHANGED_PLACES of a kind.
+// Into a block of shaders (lib/edits.glsl). At most CHANGED_PLACES of a kind, of lights as many again that are left when
+// light is scaled.
 template <typename Constants>
-void putEdits(Constants& constants, const EditList& edits) {
+void putEdits(Constants& constants, const EditList& edits, bool scales = true) {
     constants.placeCount = static_cast<std::uint32_t>(edits.places.size());
     for (std::size_t i = 0; i < edits.places.size(); ++i) {
         constants.places[i] = {edits.places[i].center, edits.places[i].radius};
         constants.placeParts[i / 4][static_cast<int>(i % 4)] = edits.places[i].part;
     }
-    constants.lightEdits = static_cast<std::uint32_t>(edits.lights.size());
-    for (std::size_t i = 0; i < edits.lights.size(); ++i) {
-        constants.editedLights[i] = {edits.lights[i].center, edits.lights[i].flux};
-        constants.editedAxes[i] = {edits.lights[i].axis, edits.lights[i].radius};
-        constants.editedLimits[i] = {edits.lights[i].reach, edits.lights[i].part, 0, 0};
-    }
+    std::uint32_t count = 0;
+    const auto put = [&](const LightChange& change) {
+        for (const LightEdit& light : change.lights) {
+            constants.editedLights[count] = {light.center, light.flux};
+            constants.editedAxes[count] = {light.axis, light.radius};
+            constants.editedLimits[count++] = {light.reach, light.part, light.whole, light.goes ? 0 : 1};
+        }
+    };
+    put(edits);
+    constants.lightEdits = count;
     constants.editedEverywhere = edits.everywhere;
     constants.editedEverywherePart = edits.everywherePart;
+    constants.lightScale = glm::vec3(1);
+    // Without it nothing is left as it was.
+    constants.scaledEverywhere = constants.scaledEverywherePart = std::numeric_limits<float>::max();
+    constants.dimmed = {edits.dimmed, edits.dimmedPart, constants.scaledEverywhere,
+                        constants.scaledEverywherePart};
+    if (edits.scaled && scales) {
+        put(*edits.scaled);
+        constants.lightScale = edits.scaled->scale;
+        constants.scaledEverywhere = edits.scaled->everywhere;
+        constants.scaledEverywherePart = edits.scaled->everywherePart;
+        constants.dimmed.z = edits.scaled->dimmed;
+        constants.dimmed.w = edits.scaled->dimmedPart;
+    }
+    constants.allLightEdits = count;
 }
 
 }  // namespace conelight::light

@@ -162,9 +162,10 @@ void IrradianceCache::restartAverages(const SceneEdits& changed) {
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
-    balance_.restart(dark_                       ? LightBalance::Restart::Dark
-                     : restartsNear_.has_value() ? LightBalance::Restart::Edits
-                                                 : LightBalance::Restart::Everything);
+    const bool near = restartsNear_ && !restartsNear_->most;
+    balance_.restart(dark_  ? LightBalance::Restart::Dark
+                     : near ? LightBalance::Restart::Edits
+                            : LightBalance::Restart::Everything);
     facesVisited_ = 0;
 }
 
@@ -192,7 +193,8 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
                                   std::min(settings.longestWindow, kUsualWindow));
     if (restarts_ && restartsNear_) {
-        c.restartsNear = 1;
+        // Where most light is another, updates begin anew everywhere: what they gather soon tells how bright all is.
+        c.restartsNear = restartsNear_->most ? 0 : 1;
         putEdits(c, *restartsNear_);
     }
     return c;
@@ -218,11 +220,21 @@ base::Steps IrradianceCache::redrawInSteps(const gl::Device& device, const Input
     co_await samples_.drawInSteps(device, inputs.voxels.surface(), constants_);
 }
 
+// After a change of light that is for the most part a factor.
+void IrradianceCache::scale(const gl::Device& device, const voxels::SurfaceVoxels& surface) const {
+    if (!restarts_ || !restartsNear_ || !restartsNear_->scaled) return;
+    gl::Inputs given;
+    given.add(surface).uniform("CacheBlock", constants_).storage("StateTable", states_);
+    device.get(pass("scale")).dispatchLinear(given, faceCount_);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+}
+
 // States -> what rays and pixels see, and the flux of faces.
 base::Steps IrradianceCache::putLight(const gl::Device& device, const Inputs& inputs,
                                       const CacheSettings& settings, bool atPixels) {
     gl::PassSteps scope(device, "irradiance: light samples");
     constants_.update(packed(settings));
+    scale(device, inputs.voxels.surface());
     gl::Inputs given;
     given.add(inputs.voxels.surface())
         .add(inputs.faces)
@@ -446,7 +458,8 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{pass("restart"), pass("reproject"), pass("share"), pass("ranges")};
+    std::vector<gl::ProgramDesc> descs{pass("scale"), pass("restart"), pass("reproject"), pass("share"),
+                                       pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     for (const auto& more : {FaceOrder::programDescs(), LightBalance::programDescs(),

@@ -131,6 +131,7 @@ class IrradianceCache {
                          std::uint32_t count);
     base::Steps commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                        bool atPixels);
+    void scale(const gl::Device& device, const voxels::SurfaceVoxels& surface) const;
     base::Steps putLight(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                          bool atPixels);
 

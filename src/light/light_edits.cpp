@@ -53,7 +53,7 @@ bool onlyMoved(const Light& was, const Light& is) {
 
 class Changes {
   public:
-    explicit Changes(LightEdits::Change& change) : change_(change) {}
+    explicit Changes(LightChange& change) : change_(change) {}
 
     void add(const Light& was, const Light& is) {
         if (was == is) return;
@@ -65,13 +65,18 @@ class Changes {
             other.intensity = is.intensity;
             if (onlyMoved(other, is) && was.position == is.position) {
                 other.intensity = glm::abs(is.intensity - was.intensity);
-                return addWhole(other, partOf(was.intensity, is.intensity));
+                return addWhole(other, partOf(was.intensity, is.intensity),
+                                glm::max(was.intensity, is.intensity));
             }
         }
         if (was.enabled) addWhole(was);
         if (is.enabled) addWhole(is);
     }
-    void addWhole(const Light& light, float part = std::numeric_limits<float>::max()) {
+    void addWhole(const Light& light) { addWhole(light, std::numeric_limits<float>::max(), light.intensity); }
+
+  private:
+    // By `light`, of a part of a light that has the intensity `whole`.
+    void addWhole(const Light& light, float part, const glm::vec3& whole) {
         if (!light.enabled || math::brightness(light.intensity) == 0) return;
         auto edit = placeOf(light);
         if (!edit) {
@@ -79,10 +84,9 @@ class Changes {
             return;
         }
         edit->part = part;
+        edit->whole = edit->flux * math::brightness(whole) / math::brightness(light.intensity);
         change_.lights.push_back(*edit);
     }
-
-  private:
     // A step aside changes what lies to its side by twice its part of the distance. A turn changes the part of the beam
     // that it sweeps, however far away.
     void addMove(const Light& was, const Light& is) {
@@ -95,15 +99,19 @@ class Changes {
         if (edit->flux == 0) return;
         edit->center = 0.5f * (was.position + is.position);
         edit->radius += 0.5f * step;
+        edit->whole = edit->flux;
         if (turn > 0) {
             LightEdit swept = *edit;
             swept.part = std::min(turn / beamOf(is), 1.0f);
             swept.flux *= swept.part;
+            swept.goes = true;
             change_.lights.push_back(swept);
+            edit->whole = 0;
         }
         if (step > 0) {
             edit->reach = 2 * step;
             edit->part = 1;
+            edit->goes = true;
             change_.lights.push_back(*edit);
         }
     }
@@ -117,9 +125,11 @@ class Changes {
         change_.everywhere +=
             math::brightness(dimmed) + turn * math::brightness(glm::max(is.intensity, was.intensity));
         change_.everywherePart += partOf(was.intensity, is.intensity) + turn / kWindow;
+        change_.dimmed += math::brightness(dimmed);
+        change_.dimmedPart += partOf(was.intensity, is.intensity);
     }
 
-    LightEdits::Change& change_;
+    LightChange& change_;
 };
 
 }  // namespace
@@ -158,25 +168,54 @@ std::optional<LightEdit> placeOf(const Light& light) {
     return edit;
 }
 
-// Lights keep their order: between those that are the same at both ends, they are compared one by one, and where their
-// number is another they go and come.
-LightEdits::Change LightEdits::look(const std::vector<Light>& lights) {
-    const std::size_t most = std::min(lights_.size(), lights.size());
-    std::size_t first = 0, last = 0;
-    while (first < most && lights_[first] == lights[first]) ++first;
-    while (last < most - first && lights_[lights_.size() - 1 - last] == lights[lights.size() - 1 - last])
-        ++last;
-    Change change;
-    Changes changes(change);
-    const std::size_t end = lights.size() - last, oldEnd = lights_.size() - last;
-    if (end == oldEnd) {
-        for (std::size_t i = first; i < end; ++i) changes.add(lights_[i], lights[i]);
-    } else {
-        for (std::size_t i = first; i < oldEnd; ++i) changes.addWhole(lights_[i]);
-        for (std::size_t i = first; i < end; ++i) changes.addWhole(lights[i]);
-    }
+void LightEdits::look(const std::vector<Light>& lights) {
+    before_ = std::move(lights_);
     lights_ = lights;
+    same_ = false;
+}
+
+// Lights keep their order: those that are the same at both ends, or all of them where there are as many, are compared one
+// by one; others go and come. pair(was, is): null where there is none.
+template <typename Pair>
+void LightEdits::forPairs(const Pair& pair) const {
+    const std::vector<Light>& was = before();
+    const std::size_t most = std::min(was.size(), lights_.size());
+    std::size_t first = was.size() == lights_.size() ? most : 0, last = 0;
+    while (first < most && was[first] == lights_[first]) ++first;
+    while (last < most - first && was[was.size() - 1 - last] == lights_[lights_.size() - 1 - last]) ++last;
+    for (std::size_t i = 0; i < first; ++i) pair(&was[i], &lights_[i]);
+    for (std::size_t i = first; i < was.size() - last; ++i) pair(&was[i], nullptr);
+    for (std::size_t i = first; i < lights_.size() - last; ++i) pair(nullptr, &lights_[i]);
+    for (std::size_t i = last; i > 0; --i) pair(&was[was.size() - i], &lights_[lights_.size() - i]);
+}
+
+LightChange LightEdits::change(const glm::vec3& scale) const {
+    LightChange change;
+    Changes changes(change);
+    forPairs([&](const Light* was, const Light* is) {
+        if (was && is && scale == glm::vec3(1)) return changes.add(*was, *is);
+        const std::size_t first = change.lights.size();
+        Light scaled = was ? *was : *is;
+        if (was)
+            scaled.intensity = is ? scaledTo(was->intensity, scale, is->intensity) : scale * was->intensity;
+        if (was && is)
+            changes.add(scaled, *is);
+        else
+            changes.addWhole(scaled);
+        const bool stays = was && is && *was == *is;
+        if (scale != glm::vec3(1) && !stays) change.haveSaid(first);
+    });
     return change;
+}
+
+void LightEdits::addSources(std::vector<LightSource>& sources, float radius) const {
+    const auto fluxOf = [&](const Light* light) {
+        const float bright = light && light->enabled ? math::brightness(light->intensity) : 0;
+        if (bright == 0) return glm::vec3(0);
+        const auto edit = placeOf(*light);
+        return light->intensity * (edit ? edit->flux / bright : kPi * radius * radius);
+    };
+    forPairs([&](const Light* was, const Light* is) { sources.push_back({fluxOf(was), fluxOf(is)}); });
 }
 
 float LightEdits::flux() const {

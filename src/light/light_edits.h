@@ -8,6 +8,7 @@
 
 #include "conelight/scene.h"
 #include "light/edits.h"
+#include "light/light_scale.h"
 
 namespace conelight::light {
 
@@ -19,17 +20,21 @@ float partOf(const glm::vec3& was, const glm::vec3& is);
 
 class LightEdits {
   public:
-    struct Change {
-        std::vector<LightEdit> lights;
-        float everywhere = 0, everywherePart = 0;  // as in EditList
-        bool isAnything = false;                   // there is nothing to go by
-    };
-    Change look(const std::vector<Light>& lights);
-    // Of the last look: of all lights that are on, W; infinite with one that has no place.
+    void look(const std::vector<Light>& lights);
+    void keep() { same_ = true; }  // a look at the same lights
+    // At the last look: from what they were, `scale` times as bright, to what they are.
+    LightChange change(const glm::vec3& scale = glm::vec3(1)) const;
+    // What they were and are, in a scene of the radius, m.
+    void addSources(std::vector<LightSource>& sources, float radius) const;
+    // All lights that are on, W; infinite with one that has no place.
     float flux() const;
 
   private:
-    std::vector<Light> lights_;
+    const std::vector<Light>& before() const { return same_ ? lights_ : before_; }
+    template <typename Pair>
+    void forPairs(const Pair& pair) const;
+    std::vector<Light> lights_, before_;
+    bool same_ = false;  // lights_ are what they were
 };
 
 }  // namespace conelight::light

@@ -60,14 +60,13 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
         voxelsFrom_ = {};
     }
     SceneEdits changed = places_.look(inputs.scene);
-    if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
-    // Updates begin anew everywhere: what they gather soon tells how bright all is.
-    const SceneEdits near = changed && changed->most ? std::nullopt : changed;
+    // Light that is still due is of a call that was left, and of a change that is not known any more.
+    if (!budget.oneUpdate || inTheDark || otherSettings || directDue_) changed.reset();
     const bool changes = inTheDark || otherSources || otherSettings;
     if (inTheDark || otherVoxels)
-        co_await cache_.adoptInSteps(device, inputs.voxels, near);
+        co_await cache_.adoptInSteps(device, inputs.voxels, changed);
     else if (changes)
-        cache_.restartAverages(near);
+        cache_.restartAverages(changed);
     if (changes) changed_ = changed;
     voxelsFrom_ = inputs.voxels.revision();
     voxelSettings_ = inputs.voxels.settings();
@@ -77,6 +76,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     settings_ = settings;
     if (directDue_) {
         co_await putDirectLight(device, inputs);
+        sourcesBefore_ = sources_;
         sources_ = revision_ = base::Revision::next();
         directDue_ = false;
     }

@@ -69,6 +69,9 @@ class LitVoxels {
     base::Revision revision() const { return revision_; }
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
     base::Revision sources() const { return sources_; }
+    base::Revision sourcesBefore() const {
+        return sourcesBefore_;
+    }  // of the light that changed() is a change of
     // Since the light changed, at most RelightSettings::updates: then it is left as it is.
     int updates() const;
     // That an update of all visits; 0 at first.
@@ -107,7 +110,7 @@ class LitVoxels {
     VoxelSettings voxelSettings_;
     voxels::VoxelGrid grid_;
     RelightSettings settings_;
-    base::Revision revision_, sources_;
+    base::Revision revision_, sources_, sourcesBefore_;
 };
 
 }  // namespace conelight::light

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 #include "math/brightness.h"
 #include "scene/surroundings.h"
@@ -10,75 +11,85 @@
 namespace conelight::light {
 namespace {
 
-// A turned sky, or one of other pixels, may be another in every direction.
-bool isComparable(const Environment& was, const Environment& is) {
-    if (was.used() != is.used()) return false;
-    if (!is.used()) return true;
-    return was.rotation == is.rotation && was.image->width == is.image->width &&
-           was.image->height == is.image->height;
-}
-
-// Over all directions and channels, the mean of ofRow(first float, count) over the rows of a picture.
+// Over all directions, the mean of ofRow(first texel, count) over the rows of a picture.
 template <typename OfRow>
-double meanOf(const EnvironmentImage& image, const OfRow& ofRow) {
-    double sum = 0, all = 0;
-    const std::size_t count = 3 * static_cast<std::size_t>(image.width);
+glm::vec3 meanOf(const EnvironmentImage& image, const OfRow& ofRow) {
+    glm::dvec3 sum(0);
+    double all = 0;
+    const auto count = static_cast<std::size_t>(image.width);
     for (int row = 0; row < image.height; ++row) {
         const double solidAngle = scene::texelSolidAngle(image, row);
-        sum += solidAngle * static_cast<double>(ofRow(static_cast<std::size_t>(row) * count, count));
+        sum += solidAngle * glm::dvec3(ofRow(static_cast<std::size_t>(row) * count, count));
         all += solidAngle * static_cast<double>(count);
     }
-    return sum / all;
+    return glm::vec3(sum / all);
 }
 
-double meanOf(const EnvironmentImage& image) {
-    const float* const texels = &image.radiance[0].r;
+glm::vec3 meanOf(const EnvironmentImage& image) {
     return meanOf(image, [&](std::size_t first, std::size_t count) {
-        float sum = 0;
-        for (std::size_t i = first; i < first + count; ++i) sum += texels[i];
+        glm::vec3 sum(0);
+        for (std::size_t i = first; i < first + count; ++i) sum += image.radiance[i];
         return sum;
     });
 }
 
-// How far two skies are apart.
-double meanApart(const Environment& was, const Environment& is) {
-    const float* const before = &was.image->radiance[0].r;
-    const float* const now = &is.image->radiance[0].r;
-    return meanOf(*is.image, [&](std::size_t first, std::size_t count) {
-        float sum = 0;
+// How far two pictures are apart, each times a factor.
+glm::vec3 meanApart(const EnvironmentImage& was, const glm::vec3& wasScale, const EnvironmentImage& is,
+                    float isScale) {
+    return meanOf(is, [&](std::size_t first, std::size_t count) {
+        glm::vec3 sum(0);
         for (std::size_t i = first; i < first + count; ++i)
-            sum += std::abs(was.strength * before[i] - is.strength * now[i]);
+            sum += glm::abs(wasScale * was.radiance[i] - isScale * is.radiance[i]);
         return sum;
     });
 }
 
 }  // namespace
 
-SkyEdits::Change SkyEdits::look(const glm::vec3& sky, const Environment& environment) {
-    Change change;
-    if (sky == sky_ && environment == environment_) return change;
-    if (isComparable(environment_, environment)) {
-        auto apart = static_cast<double>(math::brightness(glm::abs(sky - sky_)));
-        auto mean = static_cast<double>(math::brightness(sky_));
-        if (environment.used()) {
-            if (mean_ < 0) mean_ = meanOf(*environment_.image);
-            mean += static_cast<double>(environment_.strength) * mean_;
-            // Of one picture only the strength is another.
-            const auto dimmed = static_cast<double>(std::abs(environment_.strength - environment.strength));
-            apart += environment.image == environment_.image ? dimmed * mean_
-                                                             : meanApart(environment_, environment);
-        }
-        // As of half of all directions, since below the horizon there may be none of it.
-        change.irradiance = 2 * glm::pi<float>() * static_cast<float>(apart);
-        change.part = static_cast<float>(apart / mean);
-        change.isAnything = !std::isfinite(change.part);
-    } else {
+// A turned sky, or one of other pixels, may be another in every direction.
+bool SkyEdits::areComparable(const Sky& before, const Sky& now) {
+    const Environment &was = before.environment, &is = now.environment;
+    if (was.used() != is.used()) return false;
+    if (!is.used()) return true;
+    return was.rotation == is.rotation && was.image->width == is.image->width &&
+           was.image->height == is.image->height;
+}
+
+void SkyEdits::look(const glm::vec3& sky, const Environment& environment) {
+    before_ = std::move(now_);
+    now_ = {sky, environment};
+    if (!environment.used()) return;
+    const bool sameImage = environment.image == before_.environment.image;
+    now_.picture = sameImage ? before_.picture : meanOf(*environment.image);
+}
+
+LightChange SkyEdits::change(const glm::vec3& scale) const {
+    LightChange change;
+    const Environment &was = before_.environment, &is = now_.environment;
+    if (scale == glm::vec3(1) && before_.radiance == now_.radiance && was == is) return change;
+    if (!areComparable(before_, now_)) {
         change.isAnything = true;
+        return change;
     }
-    if (environment.image != environment_.image) mean_ = -1;
-    sky_ = sky;
-    environment_ = environment;
+    glm::vec3 apart = glm::abs(now_.radiance - scale * before_.radiance);
+    // Of one picture only the strength is another.
+    if (is.used())
+        apart += is.image == was.image ? glm::abs(is.strength - scale * was.strength) * now_.picture
+                                       : meanApart(*was.image, scale * was.strength, *is.image, is.strength);
+    if (glm::all(glm::lessThanEqual(apart, kScaleRounding * now_.mean()))) return change;
+    // As of half of all directions, since below the horizon there may be none of it.
+    change.everywhere = 2 * glm::pi<float>() * math::brightness(apart);
+    change.everywherePart = math::brightness(apart) / math::brightness(scale * before_.mean());
+    const glm::vec3 dimmed = glm::abs(now_.mean() - scale * before_.mean());
+    change.dimmed = 2 * glm::pi<float>() * math::brightness(dimmed);
+    change.dimmedPart = math::brightness(dimmed) / math::brightness(scale * before_.mean());
+    change.isAnything = !std::isfinite(change.everywherePart);
     return change;
+}
+
+void SkyEdits::addSource(std::vector<LightSource>& sources, float radius) const {
+    const float area = 4 * glm::pi<float>() * radius * radius;
+    sources.push_back({glm::pi<float>() * area * before_.mean(), glm::pi<float>() * area * now_.mean()});
 }
 
 }  // namespace conelight::light

@@ -2,23 +2,32 @@
 // How much of the sky is another than at the last look (docs/theory/4d_cache.md, "Lights that change"). On the CPU.
 #pragma once
 
+#include <vector>
+
 #include "conelight/scene.h"
+#include "light/edits.h"
+#include "light/light_scale.h"
 
 namespace conelight::light {
 
 class SkyEdits {
   public:
-    struct Change {
-        float irradiance = 0;     // W/m^2, mean of the channels: by which it may be another below an open sky
-        float part = 0;           // of what it was
-        bool isAnything = false;  // there is nothing to go by
-    };
-    Change look(const glm::vec3& sky, const Environment& environment);
+    void look(const glm::vec3& sky, const Environment& environment);
+    void keep() { before_ = now_; }  // a look at the same sky
+    // At the last look: from what it was, `scale` times as bright, to what it is. No light has a place.
+    LightChange change(const glm::vec3& scale = glm::vec3(1)) const;
+    // What it was and is, in a scene of the radius, m.
+    void addSource(std::vector<LightSource>& sources, float radius) const;
 
   private:
-    glm::vec3 sky_{0};
-    Environment environment_;
-    double mean_ = -1;  // of its picture, over all directions and channels; negative: not known
+    struct Sky {
+        glm::vec3 radiance{0};
+        Environment environment;
+        glm::vec3 picture{0};  // mean radiance of its picture, over all directions
+        glm::vec3 mean() const { return radiance + environment.strength * picture; }
+    };
+    static bool areComparable(const Sky& was, const Sky& is);
+    Sky before_, now_;
 };
 
 }  // namespace conelight::light

@@ -145,6 +145,20 @@ TEST_F(ScoreTest, ALightIsAPath) {
     EXPECT_LT(unsteadiness("0,0,0"), 1e-6);
 }
 
+// A light, or what emits, is darker in each second frame.
+TEST_F(ScoreTest, DimmingIsAPath) {
+    const auto unsteadiness = [&](const char* scene, const char* part) {
+        const nlohmann::json json =
+            scored(std::string("flicker builtin:") + scene + " --path dim=lamp:" + part +
+                   " --frames 3 --modes phong --component full --size 24x24 --spp 1");
+        return json["runs"][0]["unsteadiness"][0].get<double>();
+    };
+    for (const char* scene : {"cornell-point", "cornell"}) {
+        EXPECT_GT(unsteadiness(scene, "0.5"), 0.2) << scene;
+        EXPECT_LT(unsteadiness(scene, "0"), 1e-6) << scene;
+    }
+}
+
 TEST_F(ScoreTest, AThresholdThatIsExceededIsStatus1) {
     const std::string shift =
         "score shift builtin:cornell-point --modes thesis --shifts 1 --size 32x32 "
@@ -169,6 +183,9 @@ TEST_F(ScoreTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(conelight("score flicker builtin:cornell --path light=nobody:1,0,0"), 2,
                   "no light 'nobody'");
     expectOneLine(conelight("score flicker builtin:cornell --path light=nobody"), 2, "light=NAME:X,Y,Z");
+    expectOneLine(conelight("score flicker builtin:cornell --path dim=nobody:0.5"), 2,
+                  "nothing that emits 'nobody'");
+    expectOneLine(conelight("score flicker builtin:cornell --path dim=lamp:2"), 2, "dim=NAME:PART");
     expectOneLine(conelight("score flicker builtin:cornell --path clip=walk"), 2, "clip");
     expectOneLine(conelight("score leak --angles 10,x"), 2, "--angles");
     expectOneLine(conelight("score leak --dark nobody --size 16x16"), 2, "nobody");

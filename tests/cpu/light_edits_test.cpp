@@ -25,7 +25,10 @@ Light sunAt(float angle) {
 
 class LightEditsTest : public ::testing::Test {
   protected:
-    light::LightEdits::Change look() { return edits_.look(lights_); }
+    light::LightChange look(const glm::vec3& scale = glm::vec3(1)) {
+        edits_.look(lights_);
+        return edits_.change(scale);
+    }
     std::vector<Light> lights_ = {lampAt({0, 0, 0}, 1), lampAt({4, 0, 0}, 2), lampAt({8, 0, 0}, 3)};
     light::LightEdits edits_;
 };
@@ -143,25 +146,94 @@ Environment pictureOf(const std::vector<glm::vec3>& radiance) {
     return environment;
 }
 
-TEST(SkyEditsTest, SkiesChangeByTheirMean) {
-    light::SkyEdits edits;
-    const glm::vec3 one(1), two(2);
-    EXPECT_TRUE(edits.look(one, {}).isAnything);
-    const auto brighter = edits.look({1.1f, 1.1f, 1.1f}, {});
-    EXPECT_NEAR(brighter.irradiance, 2 * kPi * 0.1f, 1e-4f);
-    EXPECT_NEAR(brighter.part, 0.1f, 1e-4f);
-    EXPECT_EQ(edits.look({1.1f, 1.1f, 1.1f}, {}).part, 0);
-    EXPECT_TRUE(edits.look({0, 0, 0}, pictureOf({one, one, one, one})).isAnything);
-    EXPECT_NEAR(edits.look({0, 0, 0}, pictureOf({one, two, one, one})).part, 0.25f, 1e-4f);
-    Environment dimmed = pictureOf({one, two, one, one});
+class SkyEditsTest : public ::testing::Test {
+  protected:
+    light::LightChange look(const glm::vec3& sky, const Environment& environment,
+                            const glm::vec3& scale = glm::vec3(1)) {
+        edits_.look(sky, environment);
+        return edits_.change(scale);
+    }
+    const glm::vec3 one_ = glm::vec3(1), two_ = glm::vec3(2);
+    light::SkyEdits edits_;
+};
+
+TEST_F(SkyEditsTest, SkiesChangeByTheirMean) {
+    EXPECT_TRUE(look(one_, {}).isAnything);
+    const auto brighter = look({1.1f, 1.1f, 1.1f}, {});
+    EXPECT_NEAR(brighter.everywhere, 2 * kPi * 0.1f, 1e-4f);
+    EXPECT_NEAR(brighter.everywherePart, 0.1f, 1e-4f);
+    EXPECT_EQ(look({1.1f, 1.1f, 1.1f}, {}).everywherePart, 0);
+    EXPECT_TRUE(look({0, 0, 0}, pictureOf({one_, one_, one_, one_})).isAnything);
+    EXPECT_NEAR(look({0, 0, 0}, pictureOf({one_, two_, one_, one_})).everywherePart, 0.25f, 1e-4f);
+    Environment dimmed = pictureOf({one_, two_, one_, one_});
     dimmed.strength = 0.8f;  // of another picture that is the same, and of one
-    EXPECT_NEAR(edits.look({0, 0, 0}, dimmed).part, 0.2f, 1e-4f);
+    EXPECT_NEAR(look({0, 0, 0}, dimmed).everywherePart, 0.2f, 1e-4f);
     dimmed.strength = 0.6f;
-    const auto darker = edits.look({0, 0, 0}, dimmed);
-    EXPECT_NEAR(darker.part, 0.25f, 1e-4f);
-    EXPECT_NEAR(darker.irradiance, 2 * kPi * 1.25f * 0.2f, 1e-4f);
+    const auto darker = look({0, 0, 0}, dimmed);
+    EXPECT_NEAR(darker.everywherePart, 0.25f, 1e-4f);
+    EXPECT_NEAR(darker.everywhere, 2 * kPi * 1.25f * 0.2f, 1e-4f);
     dimmed.rotation = 0.1f;
-    EXPECT_TRUE(edits.look({0, 0, 0}, dimmed).isAnything);
+    EXPECT_TRUE(look({0, 0, 0}, dimmed).isAnything);
+}
+
+// One that is only brighter or darker is no other when it is scaled, and one that stays is.
+TEST_F(SkyEditsTest, ScaledSkiesStayTheSame) {
+    look(one_, pictureOf({one_, two_, one_, one_}));
+    Environment dimmed = pictureOf({0.5f * one_, one_, 0.5f * one_, 0.5f * one_});
+    EXPECT_NEAR(look(0.5f * one_, dimmed, glm::vec3(0.5f)).everywhere, 0, 1e-6f);
+    dimmed.strength = 2;
+    EXPECT_NEAR(look(one_, dimmed, glm::vec3(2)).everywhere, 0, 1e-6f);
+    edits_.keep();
+    EXPECT_EQ(edits_.change().everywhere, 0);
+    // 1 + 1.25 of half of it is missing.
+    EXPECT_NEAR(edits_.change(glm::vec3(0.5f)).everywhere, 2 * kPi * 0.5f * 2.25f, 1e-4f);
+    EXPECT_NEAR(edits_.change(glm::vec3(0.5f)).everywherePart, 1, 1e-5f);
+}
+
+// A lamp that is dimmed is none to look at when light is scaled by as much, and the others are.
+TEST_F(LightEditsTest, ScaledLampsStayTheSame) {
+    look();
+    lights_[1].intensity *= 0.5f;
+    lights_[2].position.x += 0.01f;
+    const auto left = look(glm::vec3(0.5f));
+    ASSERT_EQ(left.lights.size(),
+              3u);  // the third is as bright as it was, not half as bright, and stands elsewhere
+    EXPECT_EQ(left.lights[0].center, lights_[0].position);
+    EXPECT_NEAR(left.lights[0].flux, 4 * kPi * 0.5f, 1e-5f);
+    EXPECT_NEAR(left.lights[0].part, 1, 1e-6f);
+    edits_.keep();
+    EXPECT_TRUE(edits_.change().lights.empty());
+    EXPECT_EQ(edits_.change(glm::vec3(0.5f)).lights.size(), 3u);
+}
+
+TEST(CommonScaleTest, MostOfWhatChangedSays) {
+    using light::LightSource;
+    const glm::vec3 one(1);
+    EXPECT_EQ(light::commonScale({}), one);
+    EXPECT_EQ(light::commonScale({{one, one}, {glm::vec3(0), one}}), one);
+    // What stays does not count, nor what has come.
+    EXPECT_EQ(light::commonScale({{9.0f * one, 9.0f * one}, {one, 0.25f * one}, {glm::vec3(0), 7.0f * one}}),
+              0.25f * one);
+    EXPECT_EQ(light::commonScale({{3.0f * one, 6.0f * one}, {one, one * 0.5f}, {one, glm::vec3(0)}}),
+              2.0f * one);
+    EXPECT_EQ(light::commonScale({{{4, 4, 4}, {2, 4, 8}}}), glm::vec3(0.5f, 1, 2));
+}
+
+// In a scene of the radius 2 m: a lamp, one that went out, a sun.
+TEST_F(LightEditsTest, SourcesSendOutAllTheirLight) {
+    lights_[0].enabled = false;
+    lights_[2] = sunAt(0);
+    look();
+    lights_[1].intensity = {1, 0, 0};
+    look();
+    std::vector<light::LightSource> sources;
+    edits_.addSources(sources, 2);
+    ASSERT_EQ(sources.size(), 3u);
+    EXPECT_EQ(sources[0].was, glm::vec3(0));
+    EXPECT_NEAR(sources[1].was.g, 4 * kPi * 2, 1e-4f);
+    EXPECT_NEAR(sources[1].is.r, 4 * kPi, 1e-4f);
+    EXPECT_EQ(sources[1].is.g, 0);
+    EXPECT_NEAR(sources[2].is.b, 3 * kPi * 4, 1e-4f);
 }
 
 }  // namespace

@@ -164,8 +164,39 @@ TEST_F(EditPlacesTest, SunsAndSkiesAreEverywhere) {
     ASSERT_TRUE(little && little->lights.empty() && little->places.empty());
     EXPECT_NEAR(little->everywherePart, 0.1f, 1e-4f);
     EXPECT_TRUE(little->ofLight() && !little->most);
-    scene_->setSky(glm::vec3(0.3f));
+    scene_->setSky(glm::vec3(2));
+    const light::SceneEdits twice = places_.look(*scene_);
+    ASSERT_TRUE(twice && twice->scaled);
+    EXPECT_NEAR(twice->scaled->scale.g, 2 / 0.9f, 1e-5f);
+    EXPECT_EQ(twice->scaled->everywhere, 0);
+    EXPECT_EQ(twice->scaled->lights.size(), 2u);  // which are not twice as bright
+    EXPECT_FALSE(twice->most);
+    scene_->setSky(glm::vec3(0));  // all of it: half of the light there was is left as well
     EXPECT_TRUE(places_.look(*scene_)->most);
+}
+
+// What is all of the light changes by a factor. So does what emits.
+TEST_F(EditPlacesTest, OnlyLampIsScaled) {
+    std::vector<Light> lights = source_.lights;
+    lights[0].intensity = glm::vec3(100);
+    scene_->setLights(lights);
+    places_.look(*scene_);
+    lights[0].intensity = {10, 20, 30};
+    scene_->setLights(lights);
+    const light::SceneEdits dimmed = places_.look(*scene_);
+    ASSERT_TRUE(dimmed && dimmed->scaled);
+    EXPECT_NEAR(dimmed->scaled->scale.g, 0.2f, 1e-5f);
+    ASSERT_EQ(dimmed->scaled->lights.size(), 1u);  // the cube that emits
+    EXPECT_NEAR(dimmed->scaled->lights[0].flux, 0.8f * kPi * 24, 0.1f);
+    EXPECT_FALSE(dimmed->most);
+    Material darker = source_.materials.back();
+    darker.emission = glm::vec3(0.5f);
+    scene_->setMaterial(source_.materials.size() - 1, darker);
+    const light::SceneEdits both = places_.look(*scene_);
+    ASSERT_TRUE(both && both->scaled);
+    EXPECT_NEAR(both->scaled->scale.r, 0.5f, 1e-5f);
+    EXPECT_EQ(both->scaled->lights.size(), 1u);  // the lamp
+    EXPECT_FALSE(places_.look(*scene_)->scaled);
 }
 
 // A cube of edge 2 and emission 1, as a light.

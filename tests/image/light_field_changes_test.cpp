@@ -183,6 +183,57 @@ TEST_F(LightFieldChanges, LightStaysWhileLampsChange) {
     EXPECT_LT(errorAfter("on", goOn), 0.12);          // (0.096)
 }
 
+// The only lamp is dimmed, and changes its colour: after one update light is that of a fresh scene, faces' and pixels' alike,
+// with the noise that it had. Where all faces and pixels forget, errors are in brackets.
+TEST_F(LightFieldChanges, LightIsScaledWithItsLamp) {
+    HostPicture host(scene_, lens());
+    drawn(host);
+    const glm::vec3 scale(0.2f, 0.5f, 3);
+    for (const int rays : {0, 2}) {
+        Settings settings = hostSettings();
+        settings.traced.pixelRays = rays;
+        LightField field;
+        settle(field, settings);
+        std::vector<glm::vec4> settled = diffuseOf(field, host);
+        Scene scene = scene_;
+        scene.lights[0].intensity *= scale;
+        field.setLights(scene.lights);
+        field.update();
+        const double error = hostDifference(diffuseOf(field, host), freshly(scene, settings, host));
+        for (glm::vec4& pixel : settled) pixel *= glm::vec4(scale, 1);
+        const double change = hostDifference(diffuseOf(field, host), settled);
+        RecordProperty("error" + std::to_string(rays), std::to_string(error));
+        RecordProperty("change" + std::to_string(rays), std::to_string(change));
+        EXPECT_LT(error, 0.07);  // (0.70, 0.45)
+        EXPECT_LT(change, 0.05);
+    }
+}
+
+// The sky outside a closed room is dimmed, or one of two lamps: what others light keeps what it has.
+TEST_F(LightFieldChanges, OtherLightIsNotScaled) {
+    Settings settings = hostSettings();
+    settings.traced.pixelRays = 0;  // the cache as it is
+    HostPicture host(scene_, lens());
+    drawn(host);
+    scene_.sky = glm::vec3(0.5f);
+    scene_.lights.push_back({.intensity = glm::vec3(0.02f), .position = glm::vec3(-0.8f)});
+    const auto meanAfter = [&](const std::function<void(LightField&, Scene&)>& change) {
+        LightField field;
+        settle(field, settings);
+        const double settled = hostMean(diffuseOf(field, host));
+        Scene scene = scene_;
+        change(field, scene);
+        field.update();
+        return hostMean(diffuseOf(field, host)) / settled;
+    };
+    EXPECT_NEAR(meanAfter([](LightField& field, Scene&) { field.setSky(glm::vec3(0.25f)); }), 1, 0.02);
+    EXPECT_NEAR(meanAfter([](LightField& field, Scene& scene) {
+                    scene.lights[1].intensity *= 0.25f;
+                    field.setLights(scene.lights);
+                }),
+                1, 0.02);
+}
+
 // When things stand still again, twice as many updates as elsewhere leave the light of a fresh scene: nothing of the way.
 TEST_F(LightFieldChanges, NothingIsLeftOfAWay) {
     Settings settings = hostSettings();
