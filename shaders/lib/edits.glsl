@@ -5,9 +5,6 @@
 #include "shared/irradiance.h"
 
 const float kThirdOfPi = 1.04719755;
-const int kSpreadSteps = 3;
-const float kClearlyLess =
-    0.9;  // light is scaled where less than this is left of a change: where both are alike it stays
 
 // Place `i` of a list. Said so, drivers do not write the loop over a list out place by place.
 uint editPlace(uint i) { return min(i, CHANGED_PLACES - 1u); }
@@ -43,36 +40,6 @@ float partOfLight(vec3 position, vec3 radiance, vec4 light, vec4 axis, vec4 limi
     apart -= max(dot(apart, axis.xyz), 0.0) * axis.xyz;
     float d = max(length(apart) - axis.w, 1e-6);
     return partOfIrradiance(light.w / (2.0 * d * d), radiance, limits.y) * min(limits.x / d, 1.0);
-}
-
-// What lamps may bring to a place, W/m^2, were they all the root of `spread2` farther away: all of them; how fast that
-// falls with spread2; what is another than it was; and what is another than `lightScale` times that.
-struct LampShares {
-    float all, slope, asItWas, scaled;
-};
-
-// Of one lamp, with what is another as `asItWas`.
-LampShares lampShares(vec3 position, float spread2, vec4 light, vec4 axis, vec4 limits) {
-    vec3 apart = position - light.xyz;
-    apart -= max(dot(apart, axis.xyz), 0.0) * axis.xyz;
-    float d = max(length(apart) - axis.w, 1e-6);
-    float inverse = 1.0 / (d * d + spread2);
-    float all = 0.5 * limits.z * inverse;
-    return LampShares(all, all * inverse, 0.5 * light.w * limits.w * inverse, 0.0);
-}
-
-void addShares(inout LampShares sum, LampShares one, bool scaled) {
-    sum.all += one.all;
-    sum.slope += one.slope;
-    sum.asItWas += scaled ? 0.0 : one.asItWas;
-    sum.scaled += scaled ? one.asItWas : 0.0;
-}
-
-// Where lamps bring more than the `irradiance` that is there, light is spread: Newton's step for 1 / all, which is exact for
-// one lamp.
-float spreadMore(float spread2, LampShares shares, float irradiance) {
-    float over = shares.all / max(irradiance, 1e-12) - 1.0;
-    return max(spread2 + over * shares.all / max(shares.slope, 1e-30), 0.0);
 }
 
 // The weight of what is gathered next, in a mean, that errs least: by noise of many frames, and by what it lags.

@@ -12,11 +12,12 @@
 #error MOTION must be 0, 1 or 2
 #endif
 #include "lib/dot.glsl"
-#include "lib/edits.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+#define EDITS pixelRays
+#include "lib/light_change.glsl"
 uniform usampler2D pixelHistory;
 #if MOTION == 2
 uniform sampler2D hostMotion;
@@ -123,43 +124,6 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     // Less than a twentieth of a pixel is rounding.
     float scale = weight > 0.05 ? 1.0 / weight : 0.0;
     return SoFar(scale * sum.value, scale * sum.variance);
-}
-
-// Of the light at `position`, where it is `mean`, the part that a change made another. `scaled`: where `mean` has been
-// multiplied by lightScale.
-float changedLight(vec3 position, vec3 mean, bool scaled) {
-    float changed =
-        partOfIrradiance(scaled ? pixelRays.scaledEverywhere : pixelRays.editedEverywhere, mean,
-                         scaled ? pixelRays.scaledEverywherePart : pixelRays.editedEverywherePart);
-    uint end = scaled ? pixelRays.allLightEdits : pixelRays.lightEdits;
-    for (uint i = scaled ? pixelRays.lightEdits : 0u; i < end; ++i) {
-        uint at = editLight(i);
-        changed += partOfLight(position, mean, pixelRays.editedLights[at], pixelRays.editedAxes[at],
-                               pixelRays.editedLimits[at]);
-    }
-    return changed;
-}
-
-// Whether `position`, where white surfaces have `radiance`, has better light when that is scaled.
-bool isBetterScaled(vec3 position, vec3 radiance) {
-    float irradiance = kThirdOfPi * (radiance.r + radiance.g + radiance.b);
-    LampShares shares;
-    float spread2 = 0.0;
-    for (int step = 0; step <= kSpreadSteps; ++step) {
-        shares = LampShares(0.0, 0.0, 0.0, 0.0);
-        for (uint i = 0u; i < pixelRays.allLightEdits; ++i) {
-            uint at = editLight(i);
-            LampShares one = lampShares(position, spread2, pixelRays.editedLights[at],
-                                        pixelRays.editedAxes[at], pixelRays.editedLimits[at]);
-            addShares(shares, one, i >= pixelRays.lightEdits);
-        }
-        spread2 = step < kSpreadSteps ? spreadMore(spread2, shares, irradiance) : spread2;
-    }
-    vec3 scaled = pixelRays.lightScale * radiance;
-    float scaledIrradiance = kThirdOfPi * (scaled.r + scaled.g + scaled.b);
-    float left = shares.scaled + min(pixelRays.dimmed.z, pixelRays.dimmed.w * scaledIrradiance);
-    float changed = shares.asItWas + min(pixelRays.dimmed.x, pixelRays.dimmed.y * irradiance);
-    return left < kClearlyLess * changed;
 }
 
 // The picture so far with light as it is now, where a factor makes it that; and the part that is another still.

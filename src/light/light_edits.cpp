@@ -191,6 +191,7 @@ void LightEdits::forPairs(const Pair& pair) const {
 
 LightChange LightEdits::change(const glm::vec3& scale) const {
     LightChange change;
+    if (same_ && scale == glm::vec3(1)) return change;
     Changes changes(change);
     forPairs([&](const Light* was, const Light* is) {
         if (was && is && scale == glm::vec3(1)) return changes.add(*was, *is);
