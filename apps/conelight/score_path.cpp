@@ -56,20 +56,22 @@ ScorePath::ScorePath(const std::string& text, const std::string& scene, const Vi
         badPath(text);
 }
 
-void ScorePath::takeTravel(Kind kind, const std::string& value) {
-    const std::size_t colon = value.rfind(':');
+// The name of NAME:VALUE; returns the value.
+std::string ScorePath::takeName(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos) badPath(text_);
+    name_ = text.substr(0, colon);
+    return text.substr(colon + 1);
+}
+
+void ScorePath::takeTravel(Kind kind, const std::string& value) {
     kind_ = kind;
-    name_ = value.substr(0, colon);
-    travel_ = parseVec3("--path", value.substr(colon + 1));
+    travel_ = parseVec3("--path", takeName(value));
 }
 
 void ScorePath::takeDimming(const std::string& value) {
-    const std::size_t colon = value.rfind(':');
-    if (colon == std::string::npos) badPath(text_);
     kind_ = Kind::Dim;
-    name_ = value.substr(0, colon);
-    amount_ = numberIn(value.substr(colon + 1));
+    amount_ = numberIn(takeName(value));
     if (amount_ > 1) badPath(text_);
 }
 

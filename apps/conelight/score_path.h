@@ -30,6 +30,7 @@ class ScorePath {
 
   private:
     enum class Kind { Orbit, Dolly, Object, Light, Dim, Clip, File };
+    std::string takeName(const std::string& text);
     void takeTravel(Kind kind, const std::string& value);
     void takeDimming(const std::string& value);
     float numberIn(const std::string& value) const;

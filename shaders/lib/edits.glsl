@@ -28,9 +28,12 @@ float changedInLobe(vec3 position, vec3 axis, float spread, vec4 place) {
     return sine >= 1.0 ? 1.0 : covered * covered * falloff * falloff;
 }
 
+// At a place where a white surface has `radiance`: mean of the channels.
+float irradianceOf(vec3 radiance) { return kThirdOfPi * (radiance.r + radiance.g + radiance.b); }
+
 // Of the irradiance at a place the part that `changed` W/m^2 are, `most` at most. `radiance`: of a white surface there.
 float partOfIrradiance(float changed, vec3 radiance, float most) {
-    return min(changed / max(kThirdOfPi * (radiance.r + radiance.g + radiance.b), 1e-12), most);
+    return min(changed / max(irradianceOf(radiance), 1e-12), most);
 }
 
 // The same at `position` for a light with its center and flux, its axis and radius, and its reach and part in `limits`. It

@@ -57,10 +57,11 @@ float changedLight(vec3 position, vec3 radiance, bool scaled) {
 
 // Whether `position`, where white surfaces have `radiance`, has better light when that is scaled.
 bool isBetterScaled(vec3 position, vec3 radiance) {
-    float irradiance = kThirdOfPi * (radiance.r + radiance.g + radiance.b);
+    float irradiance = irradianceOf(radiance);
+    int steps = EDITS.allLightEdits > 0u ? kSpreadSteps : 0;
     LampShares shares;
     float spread2 = 0.0;
-    for (int step = 0; step <= kSpreadSteps; ++step) {
+    for (int step = 0; step <= steps; ++step) {
         shares = LampShares(0.0, 0.0, 0.0, 0.0);
         for (uint i = 0u; i < EDITS.allLightEdits; ++i) {
             uint at = editLight(i);
@@ -68,10 +69,9 @@ bool isBetterScaled(vec3 position, vec3 radiance) {
                                         EDITS.editedLimits[at]);
             addShares(shares, one, i >= EDITS.lightEdits);
         }
-        spread2 = step < kSpreadSteps ? spreadMore(spread2, shares, irradiance) : spread2;
+        spread2 = step < steps ? spreadMore(spread2, shares, irradiance) : spread2;
     }
-    vec3 scaled = EDITS.lightScale * radiance;
-    float scaledIrradiance = kThirdOfPi * (scaled.r + scaled.g + scaled.b);
+    float scaledIrradiance = irradianceOf(EDITS.lightScale * radiance);
     float left = shares.scaled + min(EDITS.dimmed.z, EDITS.dimmed.w * scaledIrradiance);
     float changed = shares.asItWas + min(EDITS.dimmed.x, EDITS.dimmed.y * irradiance);
     return left < kClearlyLess * changed;

@@ -146,8 +146,9 @@ bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
             continue;
         }
         const gpu::Material& material = scene.materials()[scene.instances()[i].material];
+        const bool emits = entry.emission != glm::vec3(0) || material.emission != glm::vec3(0);
         const Entry now{scene.instanceRevision(i), scene.instanceBounds(i), material.emission,
-                        looksOf(material), (material.flags & MATERIAL_UNLIT) != 0};
+                        emits ? looksOf(material) : 0, (material.flags & MATERIAL_UNLIT) != 0};
         if (entry.unlit || now.unlit) known = false;
         // It reflects what it did: its light alone is another.
         const bool onlyGlows = !placed && entry.looks == now.looks && entry.emission != now.emission;
@@ -159,8 +160,7 @@ bool EditPlaces::lookAtInstances(const scene::GpuScene& scene) {
         Aabb box = entry.bounds;
         box.grow(now.bounds);
         if (!box.empty()) edits_.places.push_back(sphereOf(box, part));
-        if (entry.emission != glm::vec3(0) || now.emission != glm::vec3(0))
-            glows_.push_back({entry, now, part});
+        if (emits) glows_.push_back({entry, now, part});
         entry = now;
     }
     return known;

@@ -27,7 +27,7 @@ class EditPlaces {
         base::Revision revision;
         Aabb bounds;
         glm::vec3 emission{0};
-        std::size_t looks = 0;  // all else of its material, as a number
+        std::size_t looks = 0;  // of what emits or did, all else of its material, as a number
         bool unlit = false;
     };
     // What emits, or did. It moved by a part of its size; 1: it is somewhere else, or not known.

@@ -89,19 +89,14 @@ void putEdits(Constants& constants, const EditList& edits, bool scales = true) {
     constants.lightEdits = count;
     constants.editedEverywhere = edits.everywhere;
     constants.editedEverywherePart = edits.everywherePart;
-    constants.lightScale = glm::vec3(1);
-    // Without it nothing is left as it was.
-    constants.scaledEverywhere = constants.scaledEverywherePart = std::numeric_limits<float>::max();
-    constants.dimmed = {edits.dimmed, edits.dimmedPart, constants.scaledEverywhere,
-                        constants.scaledEverywherePart};
-    if (edits.scaled && scales) {
-        put(*edits.scaled);
-        constants.lightScale = edits.scaled->scale;
-        constants.scaledEverywhere = edits.scaled->everywhere;
-        constants.scaledEverywherePart = edits.scaled->everywherePart;
-        constants.dimmed.z = edits.scaled->dimmed;
-        constants.dimmed.w = edits.scaled->dimmedPart;
-    }
+    const ScaledChange* const scaled = edits.scaled && scales ? &*edits.scaled : nullptr;
+    if (scaled) put(*scaled);
+    constexpr float kAll = std::numeric_limits<float>::max();  // nothing is left as it was
+    constants.lightScale = scaled ? scaled->scale : glm::vec3(1);
+    constants.scaledEverywhere = scaled ? scaled->everywhere : kAll;
+    constants.scaledEverywherePart = scaled ? scaled->everywherePart : kAll;
+    constants.dimmed = {edits.dimmed, edits.dimmedPart, scaled ? scaled->dimmed : kAll,
+                        scaled ? scaled->dimmedPart : kAll};
     constants.allLightEdits = count;
 }
 

@@ -69,9 +69,8 @@ class LitVoxels {
     base::Revision revision() const { return revision_; }
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
     base::Revision sources() const { return sources_; }
-    base::Revision sourcesBefore() const {
-        return sourcesBefore_;
-    }  // of the light that changed() is a change of
+    // Of the light that changed() is a change of.
+    base::Revision sourcesBefore() const { return sourcesBefore_; }
     // Since the light changed, at most RelightSettings::updates: then it is left as it is.
     int updates() const;
     // That an update of all visits; 0 at first.
