@@ -50,9 +50,9 @@ struct TriangleCorners {
     bool twoSided;
 };
 
-uint triangleInstance(int triangle) {
-    return floatBitsToUint(texelFetch(voxelTriangles, 3 * triangle).w) & 0xffffffu;
-}
+// Its instance, and flags above it.
+uint triangleBits(int triangle) { return floatBitsToUint(texelFetch(voxelTriangles, 3 * triangle).w); }
+uint triangleInstance(int triangle) { return triangleBits(triangle) & 0xffffffu; }
 
 TriangleCorners triangleCorners(int triangle) {
     vec4 first = texelFetch(voxelTriangles, 3 * triangle);
@@ -118,14 +118,21 @@ TriangleCrossing noCrossing(Ray ray) {
 // A ray passes where a texture leaves a hole; a shadow ray also through instances that cast none.
 bool isHole(TriangleCrossing c) {
     int triangle = max(c.triangle, 0);
-    uint instance = triangleInstance(triangle);
-    vec3 barycentric = vec3(1.0 - c.barycentric.x - c.barycentric.y, c.barycentric);
-    bool covers = triangleCovers(triangle, instance, barycentric);
+    uint bits = triangleBits(triangle);
+    bool asks = c.triangle >= 0 && (bits & VOXEL_TRIANGLE_PASSABLE) != 0u;
+    bool hole = false;
+    // A loop, as a software driver skips no branch, and reads tables lane by lane.
+    while (asks) {
+        uint instance = bits & 0xffffffu;
+        vec3 barycentric = vec3(1.0 - c.barycentric.x - c.barycentric.y, c.barycentric);
+        hole = !triangleCovers(triangle, instance, barycentric);
 #if BLOCKING_TRIANGLES
-    const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
-    covers = covers && (instances[instance].flags & asked) == INSTANCE_CASTS_SHADOW;
+        const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
+        hole = hole || (instances[instance].flags & asked) != INSTANCE_CASTS_SHADOW;
 #endif
-    return c.triangle >= 0 && !covers;
+        asks = false;
+    }
+    return hole;
 }
 
 // The face of a record that holds most of a surface with this normal; its light stands for the triangle's.

@@ -55,6 +55,8 @@
 #define VOXEL_TRIANGLE_TWO_SIDED 0x1000000u
 // Above those, of closed solids: thickness in voxels of the (finest) grid, as 2 log2 of it plus 16, from 1 to 31.
 #define VOXEL_TRIANGLE_SOLID_SHIFT 26
+// Its texture, its instance or its material may let rays or light pass: those are to be asked.
+#define VOXEL_TRIANGLE_PASSABLE 0x80000000u
 #define FRAGMENT_TWO_SIDED 0x40000000u  // in the bounds of a fragment
 
 // Longest step over empty bricks. 2 costs rays 15 to 30 % more, 6 and 8 gain no more than they cost to find.

@@ -88,7 +88,7 @@ uint slotOf(uint index, out bool used) {
 const int kThickSolid = 18;
 
 bool isThinSolid(uint flags, int level) {
-    int code = int(flags >> VOXEL_TRIANGLE_SOLID_SHIFT);
+    int code = int((flags >> VOXEL_TRIANGLE_SOLID_SHIFT) & 31u);
     return code != 0 && code - 2 * level <= kThickSolid;
 }
 

@@ -110,10 +110,12 @@ void writeTriangle(GridTriangle t) {
     uint materialFlags = materials[material].flags;
     // Through holes one sees the inside.
     bool whole = (materialFlags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) == 0u;
+    const uint asked = INSTANCE_CASTS_SHADOW | INSTANCE_VEIL;
+    bool hides = whole && (instances[t.instance].flags & asked) == INSTANCE_CASTS_SHADOW;
     uint solid = whole ? solidBits(cornersOfTriangle(t.triangle, t.instance).x, t.instance) : 0u;
     uint bits = t.instance | solid |
                 ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
-                (t.used ? 0u : TRIANGLE_UNUSED);
+                (t.used ? 0u : TRIANGLE_UNUSED) | (hides ? 0u : VOXEL_TRIANGLE_PASSABLE);
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
     vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,
                              materials[material].roughness, materials[material].specularF0);
