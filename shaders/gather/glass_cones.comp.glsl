@@ -139,7 +139,7 @@ RectShare rectShare(vec3 origin, vec3 direction, float width, float tanHalf) {
     RectShare seen = RectShare(1e9, 0.0, vec3(0.0));
     uint i = lighting.lightEnds.z;
     if (i < lighting.lightEnds.w) do {
-            Light light = lights[i];
+            Light light = lightOfTable(i);
             float facing = -dot(direction, light.direction);
             float t = dot(origin - light.position, light.direction) / max(facing, 1e-6);
             vec3 at = origin + t * direction - light.position;

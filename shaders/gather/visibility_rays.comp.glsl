@@ -24,7 +24,7 @@ const float kFarLight = 1e9;  // m, in the place of an infinite distance
 // Whether nothing stands between a surface and a light; `otherwise` where no ray can tell. The ray starts on its own
 // line, off the surface by more than positions err. Moved along the normal it would shift the shadow.
 bool seesLight(uint number, Surface s, bool otherwise, bool wanted) {
-    Light light = lights[number];
+    Light light = lightOfTable(number);
     bool parallel = number >= lighting.lightEnds.y;
     vec3 toLight = parallel ? -kFarLight * light.direction : light.position - s.position;
     float distance = length(toLight);

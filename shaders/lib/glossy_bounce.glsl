@@ -46,7 +46,7 @@ vec3 reflectedRects(Brdf b, vec3 position, vec3 shadingNormal, vec3 geometricNor
     if (i < lighting.lightEnds.w) {
         RectLobe lobe = rectLobe(shadingNormal, toEye, b.alpha, b.NoV);
         do {
-            Light light = lights[i];
+            Light light = lightOfTable(i);
             uint k = rectPointInLobe(light, position, lobe, xi);
             vec3 point = rectSamplePoint(light, k);
             reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *

@@ -358,7 +358,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     if ((begin) < (end)) {                               \
         uint number = (begin);                           \
         do {                                             \
-            Light light = lights[number];                \
+            Light light = lightOfTable(number);          \
             statement;                                   \
         } while (++number < (end));                      \
     }

@@ -138,7 +138,7 @@ void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 i
     uint i = fewRects() ? lighting.lightEnds.z : lighting.lightEnds.w;
     uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.barycentric.x);
     while (i < lighting.lightEnds.w) {
-        Light light = lights[i];
+        Light light = lightOfTable(i);
         uint count = light.sampleGrid * light.sampleGrid;
         uint k = min(uint(randomNext(random) * float(count)), count - 1u);
         irradiance +=

@@ -200,7 +200,7 @@ void main() {
     uint index = linearIndex();
     uint starts = causticPass.grid * causticPass.grid * causticPass.lampGrid * causticPass.lampGrid;
     if (index >= CAUSTIC_WAYS * starts) return;
-    Light light = lights[causticPass.light];
+    Light light = lightOfTable(causticPass.light);
     uint i = index % starts;
     uvec2 cell = uvec2(i % causticPass.grid, i / causticPass.grid % causticPass.grid);
     uint k = i / (causticPass.grid * causticPass.grid);

@@ -42,7 +42,7 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
     vec3 bounds = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * voxelSize;
     uint i = lighting.lightEnds.z;
     if (i < lighting.lightEnds.w) do {
-            Light light = lights[i];
+            Light light = lightOfTable(i);
             vec3 d = position - light.position;
             vec3 u = normalize(light.halfU), v = normalize(light.halfV);
             // 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.

@@ -125,7 +125,7 @@ vec3 sentBy(Light light, vec3 l, float d2) {
 
 // What a lamp sends to a piece, W/m^2 over its area.
 vec3 pieceIrradiance(Cell cell, Piece piece, vec3 normal, uint number) {
-    Light light = lights[number];
+    Light light = lightOfTable(number);
     vec3 lamp = cellFromWorld(cell, light.position);
     vec3 position = worldFromCell(cell, piece.center);
     vec3 l = light.position - position;
@@ -162,7 +162,7 @@ vec3 nearIrradiance(Cell cell, uint chain, vec3 direction, float area) {
     vec3 sum = vec3(0.0);
     uvec2 range = lampRange();
     for (uint i = range.x; i < range.y; ++i)
-        if (isNear(cell, lights[i])) sum += sumOfPieces(cell, chain, direction, i);
+        if (isNear(cell, lightOfTable(i))) sum += sumOfPieces(cell, chain, direction, i);
     return sum / max(area, kLeastArea);
 }
 
@@ -175,13 +175,13 @@ vec3 middleIrradiance(Cell cell, FaceRecord face) {
     uvec2 range = lampRange();
     for (uint i = range.x; i < range.y; ++i) {
 #if BULBS
-        if (isNear(cell, lights[i])) addRect(sum, false, receiver, none, lights[i]);
+        if (isNear(cell, lightOfTable(i))) addRect(sum, false, receiver, none, lightOfTable(i));
 #else
-        if (isNear(cell, lights[i])) continue;
+        if (isNear(cell, lightOfTable(i))) continue;
         if (i < lighting.lightEnds.x)
-            addPoint(sum, false, receiver, none, lights[i], i);
+            addPoint(sum, false, receiver, none, lightOfTable(i), i);
         else
-            addSpot(sum, false, receiver, none, lights[i], i);
+            addSpot(sum, false, receiver, none, lightOfTable(i), i);
 #endif
     }
     FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, false, receiver, none, light, number))
@@ -227,7 +227,7 @@ void main() {
     cell.place = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
     cell.voxel = ivec3(0);
-    cell.voxel = ivec3(floor(cellFromWorld(cell, lights[lamp].position) + 0.5)) +
+    cell.voxel = ivec3(floor(cellFromWorld(cell, lightPosition(lamp)) + 0.5)) +
                  ivec3(place % block, place / block % block, place / (block * block)) - block / 2;
     if (any(lessThan(cell.voxel, ivec3(0))) || any(greaterThanEqual(cell.voxel, size))) return;
 
@@ -243,9 +243,9 @@ void main() {
     uint record = texelFetch(voxelRecords, recordIndex).x;
     if ((faceDirections(record) >> direction & 1u) == 0u) return;
     for (uint i = range.x; i < lamp; ++i)
-        if (isNear(cell, lights[i])) return;
+        if (isNear(cell, lightOfTable(i))) return;
 #if BULBS
-    if (!isNear(cell, lights[lamp])) return;
+    if (!isNear(cell, lightOfTable(lamp))) return;
 #endif
 
 #if GLASS

@@ -167,9 +167,15 @@ void Lights::updateProfiles(scene::Profiles profiles) {
                                 profiles_[static_cast<std::size_t>(layer)]->factors.data());
 }
 
+void Lights::makeTable() {
+    tableTexels_ = {};
+    tableBuffer_ = gl::Buffer(table_, "lights");
+    tableTexels_ = gl::Texture(tableBuffer_, GL_RGBA32UI, "lights");
+}
+
 void Lights::upload(const Scene& scene) {
     if (!tableBuffer_ || table_.size() * sizeof(gpu::Light) > tableBuffer_.bytes())
-        tableBuffer_ = gl::Buffer(table_, "lights");
+        makeTable();
     else
         tableBuffer_.update(0, table_.data(), table_.size() * sizeof(gpu::Light));
     gpu::LightingConstants constants{};
@@ -182,6 +188,7 @@ void Lights::upload(const Scene& scene) {
 
 void Lights::declare(gl::Inputs& inputs) const {
     inputs.storage("LightTable", tableBuffer_)
+        .texture("lightTexels", tableTexels_)
         .uniform("LightingBlock", block_)
         .uniform("FixedLightBlock", tableBuffer_)
         .uniform("FixedLightRows", tableBuffer_)

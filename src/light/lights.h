@@ -59,7 +59,7 @@ class Lights {
                                     const voxels::Voxels& voxels);
     base::Revision revision() const { return revision_; }
 
-    // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
+    // LightTable, LightingBlock; lightTexels, FixedLightBlock and FixedLightRows (the table once more, for shaders that
     // know how many lights there are), the shadow maps, and the environment's picture and the tree of glass where there are any.
     void declare(gl::Inputs& inputs) const;
     // The variant of shaders that these lights need; lamps that are drawn by chance are none of theirs.
@@ -97,6 +97,7 @@ class Lights {
     base::Steps drawShadows(const gl::Device& device, const scene::GpuScene& scene, LightSettings settings,
                             bool veils);
     void updateProfiles(scene::Profiles profiles);
+    void makeTable();
     void upload(const Scene& scene);
 
     gl::ExecutionProfile profile_ = gl::ExecutionProfile::Processor;
@@ -107,6 +108,7 @@ class Lights {
     glm::uvec4 ends_{0};
     std::vector<char> emitters_;  // per instance
     gl::Buffer tableBuffer_, block_;
+    gl::Texture tableTexels_;        // over the table
     std::uint32_t lampsOfTree_ = 0;  // the first ones of the table
     LampTable lamps_;
     ShadowMaps shadows_;

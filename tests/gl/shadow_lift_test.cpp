@@ -31,7 +31,7 @@ layout(std430) writeonly buffer Out { float seen[]; };
 void main() {
     float part = (float(gl_GlobalInvocationID.x) + 0.5) / PLACES;
     vec3 p = vec3(mix(-HALF, HALF, part), HEIGHT, 0.013);
-    seen[gl_GlobalInvocationID.x] = VISIBILITY(lights[0], p, vec3(0.0, 1.0, 0.0), LIFT);
+    seen[gl_GlobalInvocationID.x] = VISIBILITY(lightOfTable(0u), p, vec3(0.0, 1.0, 0.0), LIFT);
 })");
         scene::GpuScene gpu(scene);
         light::Lights lights;

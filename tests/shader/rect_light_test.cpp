@@ -86,12 +86,13 @@ void main() {
             }
         gl::Buffer buffer(data, "points");
         const gl::Buffer table(scene::packedLights({light}), "lights");
+        const gl::Texture texels(table, GL_RGBA32UI, "lights");
         const gl::Buffer lighting(sizeof(gpu::LightingConstants), "lighting");
         programs()
             .compute("test/rect.comp.glsl")
             .dispatch(gl::Inputs()
                           .storage("Data", buffer)
-                          .storage("LightTable", table)
+                          .texture("lightTexels", texels)
                           .uniform("LightingBlock", lighting),
                       kEdge * kEdge);
         gl::barrier(gl::Access::ShaderStorage);
@@ -100,8 +101,8 @@ void main() {
     std::vector<glm::vec4> shaded(const Light& light, float roughness) {
         return atEachPoint(R"(
     DirectLight sum = DirectLight(vec3(0), vec3(0));
-    addRect(sum, true, Receiver(p, n, n, toEye, vec2(0.0)), b, lights[0]);
-    data[i] = vec4(lights[0].intensity * rectSpecularQuick(lights[0], p, lobe, b), 0.0);
+    addRect(sum, true, Receiver(p, n, n, toEye, vec2(0.0)), b, lightOfTable(0u));
+    data[i] = vec4(lightOfTable(0u).intensity * rectSpecularQuick(lightOfTable(0u), p, lobe, b), 0.0);
     data[i + 1u] = vec4(sum.specular, sum.irradiance.x);
 )",
                            light, roughness);
@@ -185,7 +186,7 @@ TEST_F(RectLightTest, PointsAreDrawnAsTheLobeSeesThem) {
     const std::string leftShare = R"(
     float left = 0.0;
     for (int k = 0; k < 256; ++k)
-        left += rectPointPlace(rectPointInLobe(lights[0], p, lobe, (float(k) + 0.5) / 256.0), 4u).x < 0.0 ? 1.0 : 0.0;
+        left += rectPointPlace(rectPointInLobe(lightOfTable(0u), p, lobe, (float(k) + 0.5) / 256.0), 4u).x < 0.0 ? 1.0 : 0.0;
     data[i] = vec4(left / 256.0);
 )";
     Light light;

@@ -151,13 +151,13 @@ LightSum lightByLight(Surface s, Paint paint, bool isLit, inout SampleCounts sam
     LightSum sum = LightSum(vec3(0.0), vec3(0.0), 1.0, 0.0);
     float mirrorWeight = 0.0;
     for (uint i = 0u; i < thesis.lightCount; ++i) {
-        ThesisLight light = thesisLight(lights[i], s.position);
-        float occlusion = occlusionOf(s, lights[i], light, isLit, samples);
+        Light source = lightOfTable(i);
+        ThesisLight light = thesisLight(source, s.position);
+        float occlusion = occlusionOf(s, source, light, isLit, samples);
         sum.leastOcclusion = min(sum.leastOcclusion, occlusion);
         sum.visible += 1.0 - occlusion;
         float visible = has(THESIS_SHADOWS) ? 1.0 - occlusion : 1.0;
-        if (has(THESIS_PHONG))
-            sum.direct += visible * phong(s, paint.color, paint.material, lights[i], light);
+        if (has(THESIS_PHONG)) sum.direct += visible * phong(s, paint.color, paint.material, source, light);
 #if SPECULAR
         float weight = specularWeight(paint, light, visible);
 #if SPECULAR_PER_LIGHT

@@ -90,7 +90,7 @@ SurfaceOfPiece surfaceOfPiece(uint axis, uint index, uint ofVertices, vec3 areas
     s.emission = materials[index].emission;
     s.areas = areas;
     s.isLamp = isLamp;
-    s.light = lights[0];
+    s.light = lightOfTable(0u);
     return s;
 }
 
@@ -136,7 +136,7 @@ vec3 directLight(SurfaceOfPiece s, vec3 color, vec3 position, vec3 n) {
         part *= lightVisibility(source, position, n);
         sum += part * (s.strengths.x + s.strengths.y * thesisCosine(source, light, position, n));
         ++i;
-        if (i < uint(grid.boxMin.w)) source = lights[i];
+        if (i < uint(grid.boxMin.w)) source = lightOfTable(i);
     }
     return sum * color;
 }
