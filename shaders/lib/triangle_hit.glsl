@@ -115,24 +115,31 @@ TriangleCrossing noCrossing(Ray ray) {
     return TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0), false, 0);
 }
 
-// A ray passes where a texture leaves a hole; a shadow ray also through instances that cast none.
-bool isHole(TriangleCrossing c) {
-    int triangle = max(c.triangle, 0);
-    uint bits = triangleBits(triangle);
-    bool asks = c.triangle >= 0 && (bits & VOXEL_TRIANGLE_PASSABLE) != 0u;
-    bool hole = false;
-    // A loop, as a software driver skips no branch, and reads tables lane by lane.
-    while (asks) {
-        uint instance = bits & 0xffffffu;
-        vec3 barycentric = vec3(1.0 - c.barycentric.x - c.barycentric.y, c.barycentric);
-        hole = !triangleCovers(triangle, instance, barycentric);
+// By tables: a ray passes where a texture leaves a hole; a shadow ray also through instances that cast none.
+bool leavesHole(TriangleCrossing c, uint instance) {
+    vec3 barycentric = vec3(1.0 - c.barycentric.x - c.barycentric.y, c.barycentric);
+    bool covers = triangleCovers(c.triangle, instance, barycentric);
 #if BLOCKING_TRIANGLES
-        const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
-        hole = hole || (instances[instance].flags & asked) != INSTANCE_CASTS_SHADOW;
+    const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
+    covers = covers && (instances[instance].flags & asked) == INSTANCE_CASTS_SHADOW;
 #endif
+    return !covers;
+}
+
+bool isHole(TriangleCrossing c) {
+    uint bits = triangleBits(max(c.triangle, 0));
+    bool asks = c.triangle >= 0 && (bits & VOXEL_TRIANGLE_PASSABLE) != 0u;
+#if EXECUTION_GPU
+    return asks && leavesHole(c, bits & 0xffffffu);
+#else
+    // A loop, as a software driver skips no branch, and reads tables lane by lane.
+    bool hole = false;
+    while (asks) {
+        hole = leavesHole(c, bits & 0xffffffu);
         asks = false;
     }
     return hole;
+#endif
 }
 
 // The face of a record that holds most of a surface with this normal; its light stands for the triangle's.
