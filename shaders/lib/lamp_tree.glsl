@@ -16,7 +16,6 @@
 #include "shared/lamps.h"
 uniform usamplerBuffer lampNodes;
 uniform usamplerBuffer lampSlots;
-uniform usamplerBuffer lampTable;
 
 // A node is left whole where what it may err by is below this part of all light: 32 candidates or so of 10^4 lamps
 // (builtin:lamps).
@@ -29,18 +28,6 @@ const int kMostLampCandidates = 64;
 // Levels of a tree over 10^6 lamps: so many nodes may be left to walk through when no more are opened.
 const int kLampDepth = 20;
 const int kLampAttempts = 8;
-
-Light lampOf(uint number) {
-    int row = 7 * int(number);
-    uvec4 a = texelFetch(lampTable, row), b = texelFetch(lampTable, row + 1);
-    uvec4 c = texelFetch(lampTable, row + 2), d = texelFetch(lampTable, row + 3);
-    uvec4 e = texelFetch(lampTable, row + 4), f = texelFetch(lampTable, row + 5);
-    uvec4 g = texelFetch(lampTable, row + 6);
-    return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), int(b.w), uintBitsToFloat(c.xyz),
-                 uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), uintBitsToFloat(d.w), uintBitsToFloat(e.xyz),
-                 uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), f.w, uintBitsToFloat(g.x),
-                 uintBitsToFloat(g.y), g.z, g.w);
-}
 
 // A node as a place sees it.
 struct LampNodeView {
@@ -136,7 +123,7 @@ int findCandidates(const bool specular, Receiver r, Brdf b, LampDraw draw) {
                 float xi = sequencePoint(draw.seed ^ uint(node) * 0x9e3779b9u, draw.index).y;
                 uint slot = seen.firstSlot + min(uint(xi * float(slots)), slots - 1u);
                 uint number = texelFetch(lampSlots, int(slot)).x;
-                Light light = lampOf(number);
+                Light light = lightOfTexels(number);
                 float times = seen.lamp ? 1.0 : float(slots) / float(light.sampleGrid);
                 sum += times * lampBrightness(specular, lampShare(specular, r, b, light), b);
                 candidateLamps[count] = number;
@@ -160,7 +147,7 @@ DirectLight lampLight(const bool specular, Receiver r, Brdf b, vec3 start, LampD
     do {
         float place = all * (float(i) + first) / float(LAMP_RAYS);
         while (at < count - 1 && candidateSums[at] <= place) ++at;
-        Light light = lampOf(candidateLamps[at]);
+        Light light = lightOfTexels(candidateLamps[at]);
         DirectLight share = lampShare(specular, r, b, light);
         float brightness = lampBrightness(specular, share, b);
         bool any = all > 0.0 && brightness > 0.0;

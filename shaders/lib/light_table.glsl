@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The light table (shared/scene.h), sorted by kind: number -> lightOfTable.
+// The light table (shared/scene.h), sorted by kind: number -> lightOfTable, lightOfTexels.
 #include "lib/execution.glsl"
 #include "lib/lighting.glsl"
 #include "shared/scene.h"
-#if EXECUTION_GPU
-layout(std430) readonly buffer LightTable { Light lights[]; };
+uniform usamplerBuffer lightTexels;  // seven texels a light
 
-Light lightOfTable(uint number) { return lights[number]; }
-vec3 lightPosition(uint number) { return lights[number].position; }
-#else
-// The same bytes as texels, 7 per light: a software driver reads storage word by word and lane by lane.
-uniform usamplerBuffer lightTexels;
-
-Light lightOfTable(uint number) {
+Light lightOfTexels(uint number) {
     int at = 7 * int(number);
     uvec4 a = texelFetch(lightTexels, at), b = texelFetch(lightTexels, at + 1);
     uvec4 c = texelFetch(lightTexels, at + 2), d = texelFetch(lightTexels, at + 3);
@@ -23,5 +16,12 @@ Light lightOfTable(uint number) {
                  uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), f.w, uintBitsToFloat(g.x),
                  uintBitsToFloat(g.y), g.z, g.w);
 }
-vec3 lightPosition(uint number) { return uintBitsToFloat(texelFetch(lightTexels, 7 * int(number)).xyz); }
+
+// Of a number that lanes share: a software driver reads storage word by word and lane by lane.
+#if EXECUTION_GPU
+layout(std430) readonly buffer LightTable { Light lights[]; };
+Light lightOfTable(uint number) { return lights[number]; }
+#else
+Light lightOfTable(uint number) { return lightOfTexels(number); }
 #endif
+vec3 lightPosition(uint number) { return lightOfTable(number).position; }

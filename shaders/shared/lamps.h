@@ -3,7 +3,7 @@
 // (src/light/lamp_tree.h, lib/lamp_tree.glsl), and the pass that lights faces by it (light/lamp_faces.comp.glsl).
 //
 // Names: lampNodes (usamplerBuffer RGBA32UI: three texels a node), lampSlots (usamplerBuffer R32UI: a lamp's number in the
-// light table), lampTable (usamplerBuffer RGBA32UI: the light table, seven texels a light).
+// light table).
 #pragma once
 #include "shared/prelude.h"
 #define LAMP_RAYS 4  // of a draw

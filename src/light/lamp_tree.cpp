@@ -106,21 +106,18 @@ LampTree LampTree::over(std::span<gpu::Light> lamps) {
     return tree;
 }
 
-void LampTable::update(const LampTree& tree, const gl::Buffer& lights) {
+void LampTable::update(const LampTree& tree) {
     *this = {};
     if (tree.nodes.empty()) return;
     nodes_ = gl::Buffer(tree.nodes, "lamp nodes");
     slots_ = gl::Buffer(tree.slots, "lamp slots");
     nodeTexels_ = gl::Texture(nodes_, GL_RGBA32UI, "lamp nodes");
     slotTexels_ = gl::Texture(slots_, GL_R32UI, "lamp slots");
-    lightTexels_ = gl::Texture(lights, GL_RGBA32UI, "lamps");
 }
 
 void LampTable::declare(gl::Inputs& inputs) const {
     if (empty()) return;
-    inputs.texture("lampNodes", nodeTexels_)
-        .texture("lampSlots", slotTexels_)
-        .texture("lampTable", lightTexels_);
+    inputs.texture("lampNodes", nodeTexels_).texture("lampSlots", slotTexels_);
 }
 
 }  // namespace conelight::light

@@ -28,14 +28,13 @@ struct LampTree {
 // The tree as shaders read it.
 class LampTable {
   public:
-    // `lights`: the light table that the tree's lamps are in.
-    void update(const LampTree& tree, const gl::Buffer& lights);
+    void update(const LampTree& tree);
     bool empty() const { return !nodes_; }
-    void declare(gl::Inputs& inputs) const;  // lampNodes, lampSlots, lampTable
+    void declare(gl::Inputs& inputs) const;  // lampNodes, lampSlots
 
   private:
     gl::Buffer nodes_, slots_;
-    gl::Texture nodeTexels_, slotTexels_, lightTexels_;
+    gl::Texture nodeTexels_, slotTexels_;
 };
 
 }  // namespace conelight::light

@@ -60,7 +60,7 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
     co_await gl::rest(device);
     glass_.update(scene, veils);
     upload(scene.source());
-    lamps_.update(tree, tableBuffer_);
+    lamps_.update(tree);
     from_ = sources;
     profile_ = device.profile;
     if (hasGlass() || hasCaustics()) caustics_.clear();
