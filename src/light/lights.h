@@ -59,8 +59,8 @@ class Lights {
                                     const voxels::Voxels& voxels);
     base::Revision revision() const { return revision_; }
 
-    // LightTable, LightingBlock; lightTexels, FixedLightBlock and FixedLightRows (the table once more, for shaders that
-    // know how many lights there are), the shadow maps, and the environment's picture and the tree of glass where there are any.
+    // LightTable, lightTexels (its bytes), LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for
+    // shaders that know how many lights there are), the shadow maps, and the environment's picture and the tree of glass where there are any.
     void declare(gl::Inputs& inputs) const;
     // The variant of shaders that these lights need; lamps that are drawn by chance are none of theirs.
     LightKey key() const;
