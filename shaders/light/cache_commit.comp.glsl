@@ -1,10 +1,10 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // After an update: means into the lit faces, where rays read them, and into faceLight, where pixels do,
-// shared there with neighbours while they are of few updates; and the flux of each face.
+// shared there with neighbours as far as only noise parts them; and the flux of each face.
 //
 // AT_PIXELS 0: leaves faceLight alone, for a commit that is followed by another before pixels look.
-// SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
+// SHARED 0: faces keep their own, for limited bounces: each update has rays enough.
 layout(local_size_x = 64) in;
 #include "lib/dot.glsl"
 #include "lib/light_cells.glsl"
@@ -38,25 +38,25 @@ uint weightAtPixels(uvec4 hitTexel, bool lit) {
 #if SHARED
 #include "light/face_plane.glsl"
 
-// What neighbour `side` of a face with the normal n adds to its mean, and 1; or nothing. One that shows another's mean
+// What neighbour `side` of a face with the normal n adds to its mean, and its weight; or nothing. One that shows another's mean
 // does not: its own voxel has that one.
-vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
+vec4 neighbourIrradiance(int side, vec3 own, uint updates, uvec4 hitTexel, vec3 n) {
     int face = neighbourOnPlane(side, 1, hitTexel, n);
     FaceCache state = unpackState(texelFetch(stateTexels, max(face, 0)));
     bool counts = face >= 0 && (state.counts & CACHE_SHARES) == 0u &&
                   (state.counts & CACHE_UPDATES_MASK) != 0u && !isInterior(state);
-    return counts ? vec4(state.irradiance, 1.0) : vec4(0.0);
+    return counts ? vec4(state.irradiance, 1.0) * likeness(own, state.irradiance, updates) : vec4(0.0);
 }
 
-// The mean of a face and its neighbours on the same plane, for as long as its own is of few updates. Only
-// pixels see it: rays go on reading each face's own, whose noise they average. Four calls in place of a loop
-// take a tenth off the pass: loads side by side are cheap.
+// The mean of a face and its neighbours on the same plane. Only pixels see it: rays go on reading each face's own, whose
+// noise they average. Four calls in place of a loop take a tenth off the pass: loads side by side are cheap.
 vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
-    float share = shareOfNeighbours(updates);
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
-    vec4 sum = neighbourIrradiance(0, hitTexel, n) + neighbourIrradiance(1, hitTexel, n);
-    sum += neighbourIrradiance(2, hitTexel, n) + neighbourIrradiance(3, hitTexel, n);
-    sum = vec4(own, 1.0) + share * sum;
+    vec4 sum = vec4(own, 1.0);
+    sum +=
+        neighbourIrradiance(0, own, updates, hitTexel, n) + neighbourIrradiance(1, own, updates, hitTexel, n);
+    sum +=
+        neighbourIrradiance(2, own, updates, hitTexel, n) + neighbourIrradiance(3, own, updates, hitTexel, n);
     return sum.rgb / sum.a;
 }
 #endif

@@ -13,9 +13,10 @@
 //   STEP 2  the same -> faces before each chunk, and at all (one group)
 //   STEP 3  bins -> faces before each bin
 //   STEP 4  faces that gather -> order
-//   STEP 5  instead of all: faces as they are stored, for grids with too many bins; all gather
+// Grids with many blocks are sorted in sweeps, so many blocks at a time: all steps for each. Doubtful faces are listed in
+// the last one.
 #ifndef STEP
-#error STEP must be 0 to 5
+#error STEP must be 0 to 4
 #endif
 #if STEP == 2
 #include "shared/prefix_sum.h"
@@ -32,10 +33,12 @@ layout(local_size_x = 64) in;
 layout(std430) buffer OrderTable { uint order[]; };
 layout(std430) buffer BinTable { uvec2 bins[]; };
 layout(std430) buffer StartTable { uint starts[]; };
-// Of each chunk of bins; in front of them the faces that gather, and how many doubtful ones follow.
+// Of each chunk of bins; in front of them the faces that gather, how many doubtful ones follow, and the faces that gather
+// of the sweeps before.
 layout(std430) buffer ChunkTable {
     uint gathering;
     uint doubtful;
+    uint sortedBefore;
     uint chunks[];
 };
 #if STEP == 2
@@ -50,11 +53,6 @@ uniform usamplerBuffer stateTexels;
 uniform usamplerBuffer voxelFaces;
 uniform usamplerBuffer binTexels;
 uniform usamplerBuffer startTexels;
-
-uint binCount() {
-    ivec3 blocks = (storedBricks() + 3) >> 2;
-    return uint(blocks.x * blocks.y * blocks.z) * CACHE_BINS_PER_BLOCK;
-}
 
 // Two faces of one voxel hold the same surface when the cosine between their normals is above the first, and
 // their planes and the middles of their bounds are no farther apart than this, in voxels.
@@ -99,7 +97,7 @@ uint gathererOf(uint face, uvec4 hitTexel) {
     return shares ? uint(at) : face;
 }
 
-// The bin of a face; `brick`: its brick in the block.
+// The bin of a face among those of the sweep, or one behind them; `brick`: its brick in the block.
 uint binOf(uvec4 hitTexel, out uint brick) {
     ivec3 voxel = unpackVoxel(hitTexel.w);
     int axis = int(hitTexel.w >> 30);
@@ -107,7 +105,7 @@ uint binOf(uvec4 hitTexel, out uint brick) {
     ivec3 within = (voxel >> 2) & 3;
     brick = uint(within.x | within.y << 2 | within.z << 4);
     uint block = brickIndex(voxel >> 4, (gridBricks() + 3) >> 2);
-    return block * CACHE_BINS_PER_BLOCK + uint(faceDirection(hitTexel, n)) * 64u +
+    return (block - settings.firstBlock) * CACHE_BINS_PER_BLOCK + uint(faceDirection(hitTexel, n)) * 64u +
            bitOfVoxel(ivec3(interleavedPlace(uvec3(voxel), uint(axis))));
 }
 
@@ -130,7 +128,11 @@ uint roleOf(uvec4 hitTexel, uvec4 state) {
 void sortFace(uint index) {
     uvec4 hitTexel = texelFetch(voxelFaces, int(index));
     uvec4 state = texelFetch(stateTexels, int(index));
+    uint brick;
+    uint bin = binOf(hitTexel, brick);
+    bool ofSweep = bin < settings.binCount;
 #if STEP == 0
+    if (!ofSweep) return;
     uint gatherer = gathererOf(index, hitTexel);
     bool shares = gatherer != index;
     if (shares) states[index] = uvec4(gatherer, 0u, 0u, CACHE_SHARES);
@@ -140,11 +142,9 @@ void sortFace(uint index) {
     uint role = shares ? kLeftOut : roleOf(hitTexel, state);
 #if STEP == 4
     // In no order: what a face gathers does not depend on it.
-    if (role == kDoubtful) order[gathering + atomicAdd(doubtful, 1u)] = index;
+    if (role == kDoubtful && settings.lastSweep != 0u) order[gathering + atomicAdd(doubtful, 1u)] = index;
 #endif
-    if (role != kGathers) return;
-    uint brick;
-    uint bin = binOf(hitTexel, brick);
+    if (role != kGathers || !ofSweep) return;
 #if STEP == 0
     if (brick < 32u)
         atomicOr(bins[bin].x, 1u << brick);
@@ -158,11 +158,12 @@ void sortFace(uint index) {
 #endif
 
 #if STEP == 2
-// Numbers per chunk -> numbers before each, and at all.
+// Numbers per chunk -> numbers before each in the sweep, and at all.
 void sumChunks() {
     uint total = prefixChunks(settings.chunkCount);
     if (gl_LocalInvocationIndex != 0u) return;
-    gathering = total;
+    sortedBefore = settings.firstBlock == 0u ? 0u : gathering;
+    gathering = sortedBefore + total;
     doubtful = 0u;
 }
 #endif
@@ -172,8 +173,8 @@ void sumChunks() {
 void walkBins(uint chunk) {
     if (chunk >= settings.chunkCount) return;
     uint bin = chunk * settings.binsPerChunk;
-    uint end = min(bin + settings.binsPerChunk, binCount());
-    uint sum = STEP == 3 ? chunks[chunk] : 0u;
+    uint end = min(bin + settings.binsPerChunk, settings.binCount);
+    uint sum = STEP == 3 ? sortedBefore + chunks[chunk] : 0u;
     while (bin < end) {
         uvec2 mask = texelFetch(binTexels, int(bin)).xy;
 #if STEP == 3
@@ -196,9 +197,7 @@ void main() {
     if (index < grid.faceCount) sortFace(index);
 #elif STEP == 1 || STEP == 3
     walkBins(index);
-#elif STEP == 2
-    sumChunks();
 #else
-    if (index < grid.faceCount) order[index] = index;
+    sumChunks();
 #endif
 }

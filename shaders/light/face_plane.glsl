@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Faces on the plane of another, for what few updates have found: pixels see it shared among them. Behind
+// Faces on the plane of another: pixels see what is noise shared among them. Behind
 // light/cache_common.glsl; the includer declares voxelFaces, voxelRecords and voxelBrickImage.
 #include "lib/dot.glsl"
 
-// Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
-const float kSharedFrom = 20.0;
-const float kSharedUntil = float(IRRADIANCE_SHARED_UPDATES);
-float shareOfNeighbours(uint updates) {
-    float share = clamp((kSharedUntil - float(updates)) / (kSharedUntil - kSharedFrom), 0.0, 1.0);
-    // Where every update replaces what was there, each has rays enough.
-    return updates > 0u && cache.longestWindow > 1u ? share : 0.0;
+// How far two means of faces may be apart, over the noise of one.
+const float kSharedApart = 4.0;
+// Part that one mean counts to another: none where more than noise parts them, such as a wall between both.
+float likeness(vec3 own, vec3 other, uint updates) {
+    // IRRADIANCE_NOISE is that of two rays of each kind.
+    float averaged = float(max(updates, uint(IRRADIANCE_SETTLE)) - uint(IRRADIANCE_SETTLE)) + 1.0;
+    float noise = kSharedApart * IRRADIANCE_NOISE * inversesqrt(0.5 * float(cache.cosineRays) * averaged);
+    float apart = dot(abs(own - other), vec3(1.0)) / max(dot(max(own, other), vec3(1.0)), 1e-20);
+    return max(1.0 - apart * apart / (noise * noise), 0.0);
 }
 
 // What is one plane: by the cosine between normals, and by the distance of the planes in voxels.

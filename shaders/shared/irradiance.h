@@ -67,8 +67,6 @@
 #define CHANGED_FOURS 4u  // fours of them
 // As many that are others than they were, and that are others than `lightScale` times that.
 #define CHANGED_LIGHTS 32u
-// Until so many updates after a change pixels see a face's mean shared with its neighbours.
-#define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_INTERIOR_RAYS 16
@@ -219,7 +217,12 @@ struct CacheOrder {
     uint searches;  // 1: faces that may be inside closed objects, or are, are visited to find out
     uint binsPerChunk;
     uint chunkCount;
-};  // 16 B
+    // ---- 16 B
+    uint firstBlock;  // of the sweep
+    uint binCount;    // of the sweep
+    uint lastSweep;   // 1: doubtful faces follow
+    uint pad0;
+};  // 32 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
@@ -230,5 +233,5 @@ static_assert(sizeof(conelight::gpu::CacheBalance) == 64);
 static_assert(sizeof(conelight::gpu::CacheBalancing) == 32);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
-static_assert(sizeof(conelight::gpu::CacheOrder) == 16);
+static_assert(sizeof(conelight::gpu::CacheOrder) == 32);
 #endif

@@ -12,16 +12,15 @@
 namespace conelight::light {
 namespace {
 
-// Grids with more blocks of 16^3 voxels (256^3 has half of that) keep faces as they are stored: bins would
-// take too much memory.
-constexpr std::size_t kMaxBlocks = 8192;
+// Blocks of 16^3 voxels that are sorted at once (256^3 has half of that), so that bins take 38 MB at most.
+constexpr std::uint32_t kMostBlocks = 8192;
 
 struct OrderKey {
     int step;
     gl::ProgramDesc desc() const {
         return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
     }
-    static std::vector<OrderKey> all() { return {{0}, {1}, {2}, {3}, {4}, {5}}; }
+    static std::vector<OrderKey> all() { return {{0}, {1}, {2}, {3}, {4}}; }
 };
 
 }  // namespace
@@ -48,11 +47,14 @@ void FaceOrder::reserveOrder(std::size_t faces) {
     orderTexels_ = gl::Texture(order_, GL_R32UI, "order of faces");
 }
 
-void FaceOrder::reserveBins(std::size_t count) {
-    if (bins_.bytes() == 8 * count) return;
+void FaceOrder::reserveBins(std::uint32_t count) {
+    if (const std::size_t bytes = 4 * (3 + std::size_t{gpu::mostChunks(count)}); chunks_.bytes() < bytes)
+        chunks_ = gl::Buffer(bytes, "chunks of bins");
+    if (!block_) block_ = gl::Buffer(sizeof(gpu::CacheOrder), "order of faces constants");
+    if (bins_.bytes() == std::size_t{8} * count) return;
     releaseBins();
-    bins_ = gl::Buffer(8 * count, "bins of faces");
-    binStarts_ = gl::Buffer(4 * count, "starts of bins of faces");
+    bins_ = gl::Buffer(std::size_t{8} * count, "bins of faces");
+    binStarts_ = gl::Buffer(std::size_t{4} * count, "starts of bins of faces");
     binTexels_ = gl::Texture(bins_, GL_RG32UI, "bins of faces");
     binStartTexels_ = gl::Texture(binStarts_, GL_R32UI, "starts of bins of faces");
 }
@@ -73,36 +75,12 @@ base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::Surfa
     if (faces == 0) co_return;
     reserveOrder(faces);
     const glm::ivec3 blocks = (surface.grid().storedBricks() + 3) / 4;
-    const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
-                            static_cast<std::size_t>(blocks.z);
-    const auto bins = static_cast<std::uint32_t>(std::min(blockCount, kMaxBlocks) * CACHE_BINS_PER_BLOCK);
-    if (const std::size_t bytes = 4 * (2 + std::size_t{gpu::mostChunks(bins)}); chunks_.bytes() < bytes)
-        chunks_ = gl::Buffer(bytes, "chunks of bins");
-    if (!block_) block_ = gl::Buffer(sizeof(gpu::CacheOrder), "order of faces constants");
+    const auto blockCount = static_cast<std::uint32_t>(blocks.x * blocks.y * blocks.z);
+    reserveBins(std::min(blockCount, kMostBlocks) * CACHE_BINS_PER_BLOCK);
     gl::Inputs inputs;
-    inputs.add(surface).storage("OrderTable", order_);
-    if (blockCount > kMaxBlocks) {
-        // The block and the lists are declared in every step; nothing is read of them here.
-        inputs.uniform("OrderBlock", block_)
-            .storage("BinTable", chunks_)
-            .storage("StartTable", chunks_)
-            .storage("ChunkTable", chunks_);
-        device.get(OrderKey{5}.desc()).dispatchLinear(inputs, faces);
-        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-        chunks_.clear();
-        surface.putFaceCount(chunks_, 0);
-        takeCounts(late);
-        co_return;
-    }
-    reserveBins(bins);
-    bins_.clear();
-    gpu::CacheOrder block{};
-    block.number = sorts_++;
-    block.searches = wanted.searches ? 1 : 0;
-    block.binsPerChunk = gpu::perChunk(bins);
-    block.chunkCount = gpu::chunksOf(bins);
-    block_.update(block);
-    inputs.uniform("OrderBlock", block_)
+    inputs.add(surface)
+        .storage("OrderTable", order_)
+        .uniform("OrderBlock", block_)
         .storage("BinTable", bins_)
         .storage("StartTable", binStarts_)
         .storage("ChunkTable", chunks_)
@@ -110,11 +88,24 @@ base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::Surfa
         .texture("binTexels", binTexels_)
         .texture("startTexels", binStartTexels_)
         .texture("stateTexels", stateTexels);
-    const std::size_t invocations[] = {faces, block.chunkCount, 1, block.chunkCount, faces};
-    for (int step = 0; step < 5; ++step) {
-        device.get(OrderKey{step}.desc()).dispatchLinear(inputs, invocations[step]);
-        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-        co_await gl::rest(device);
+    gpu::CacheOrder block{};
+    block.number = sorts_++;
+    block.searches = wanted.searches ? 1 : 0;
+    for (std::uint32_t first = 0; first < blockCount; first += kMostBlocks) {
+        const std::uint32_t sorted = std::min(blockCount - first, kMostBlocks);
+        block.firstBlock = first;
+        block.lastSweep = first + sorted == blockCount ? 1 : 0;
+        block.binCount = sorted * CACHE_BINS_PER_BLOCK;
+        block.binsPerChunk = gpu::perChunk(block.binCount);
+        block.chunkCount = gpu::chunksOf(block.binCount);
+        block_.update(block);
+        bins_.clear();
+        const std::size_t invocations[] = {faces, block.chunkCount, 1, block.chunkCount, faces};
+        for (int step = 0; step < 5; ++step) {
+            device.get(OrderKey{step}.desc()).dispatchLinear(inputs, invocations[step]);
+            gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
+            co_await gl::rest(device);
+        }
     }
     takeCounts(late);
     // They are as large as what they sort.

@@ -41,7 +41,7 @@ class FaceOrder {
     const Counts& known() const;
     void takeCounts(bool late);
     void reserveOrder(std::size_t faces);
-    void reserveBins(std::size_t count);
+    void reserveBins(std::uint32_t count);
     void releaseBins();
 
     gl::Buffer order_, bins_, binStarts_, chunks_, block_;

@@ -241,8 +241,9 @@ base::Steps IrradianceCache::putLight(const gl::Device& device, const Inputs& in
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_);
-    const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
-    const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
+    const Commit kind = !atPixels           ? Commit::ForRays
+                        : settings.averages ? Commit::SharedForPixels
+                                            : Commit::ForPixels;
     const bool twice = kind == Commit::SharedForPixels;
     if (twice)
         gl::reserveTexels(sharedLight_, sharedLightTexels_, GL_RG32UI, std::size_t{8} * faceCount_,

@@ -91,6 +91,7 @@ class IrradianceCache {
     const LightSamples& samples() const { return samples_; }
     const SkyGuide& guide() const { return guide_; }
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
+    const gl::Buffer& atPixels() const { return faceLight_; }    // two uints per face, faceLight, for tests
     const gl::Buffer& order() const { return order_.buffer(); }  // a face per place, for tests
 
     static std::vector<gl::ProgramDesc> programDescs();

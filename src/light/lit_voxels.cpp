@@ -2,7 +2,7 @@
 #include "light/lit_voxels.h"
 
 #include <algorithm>
-#include <vector>
+#include <cstdint>
 
 #include "gl/gl.h"
 #include "gl/pace.h"
@@ -20,6 +20,8 @@ constexpr int kRaysPerBounce = 32;
 constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
 // Means over frames while the cache is still on its way would show old light.
 constexpr int kSteadyUpdates = 14;
+// So many faces have all their updates.
+constexpr std::uint32_t kFacesOfAllUpdates = 1u << 18;
 
 // With a limited number of bounces, of lamps that are drawn by chance, besides the first.
 constexpr int kLampDrawsOfBounces = 4;
@@ -35,6 +37,12 @@ RelightSettings relightSettings(const TracedSettings& settings) {
     relight.rays = settings.cacheRays;
     relight.exactHits = settings.exactHits;
     return relight;
+}
+
+int updatesOfFaces(int updates, std::uint32_t faces) {
+    if (updates <= kSteadyUpdates || faces <= kFacesOfAllUpdates) return updates;
+    const std::int64_t averaged = std::int64_t{updates - IRRADIANCE_SETTLE} * kFacesOfAllUpdates / faces;
+    return std::max(IRRADIANCE_SETTLE + static_cast<int>(averaged), kSteadyUpdates);
 }
 
 base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& inputs,
@@ -124,30 +132,25 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
     cache.averages = !settings_.bounces;
     cache.exactDirect = settings_.exactHits;
     cache.facesPerUpdate = budget.oneUpdate ? budget.faces : 0;
-    struct Run {
-        int rays, passes;
-    };
-    const int missing = std::max(wantedUpdates() - cache_.updates(), 0);
-    std::vector<Run> runs;
-    if (settings_.bounces) {
-        runs = {{std::max(settings_.rays, kRaysPerBounce), missing}};
-    } else if (budget.oneUpdate) {
-        runs = {{settings_.rays, std::min(missing, 1)}};
-    } else {
-        const int coarse = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
-        runs = {{std::max(settings_.rays / 4, 1), coarse}, {settings_.rays, missing - coarse}};
+    const int missing = missingUpdates();
+    const bool coarse = !settings_.bounces && !budget.oneUpdate;
+    if (coarse) {
+        const int passes = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
+        cache.cosineRays = cache.lightRays = std::max(settings_.rays / 4, 1);
+        co_await cache_.updateInSteps(device, given, cache, passes);
+        if (passes > 0) revision_ = base::Revision::next();
     }
-    for (const Run& run : runs) {
-        cache.cosineRays = cache.lightRays = run.rays;
-        // Those that average get another draw of lamps than those before; the rays of few updates all draws at once.
-        const bool averages = budget.oneUpdate || &run != &runs.front();
-        if (settings_.bounces && run.passes > 0)
-            co_await drawLamps(device, inputs, 0, kLampDrawsOfBounces);
-        else if (averages && run.passes > 0)
-            co_await drawLamps(device, inputs, cache.facesPerUpdate, 1);
-        co_await cache_.updateInSteps(device, given, cache, run.passes);
-        if (run.passes > 0) revision_ = base::Revision::next();
-    }
+    // Coarse ones have found out how many faces there are to update.
+    const int passes =
+        coarse ? missingUpdates() : (budget.oneUpdate && !settings_.bounces ? std::min(missing, 1) : missing);
+    // Those that average get another draw of lamps than those before; the rays of few updates all draws at once.
+    if (passes > 0)
+        co_await drawLamps(device, inputs, settings_.bounces ? 0 : cache.facesPerUpdate,
+                           settings_.bounces ? kLampDrawsOfBounces : 1);
+    cache.cosineRays = cache.lightRays =
+        settings_.bounces ? std::max(settings_.rays, kRaysPerBounce) : settings_.rays;
+    co_await cache_.updateInSteps(device, given, cache, passes);
+    if (passes > 0) revision_ = base::Revision::next();
     if (!budget.oneUpdate || missing == 0) cache_.endSharing();
 }
 
@@ -157,7 +160,14 @@ base::Steps LitVoxels::redrawInSteps(const gl::Device& device, const Inputs& inp
 }
 
 // What far faces have kept of the light before goes by twice as many.
-int LitVoxels::wantedUpdates() const { return (changed_ && !changed_->most ? 2 : 1) * settings_.updates; }
+int LitVoxels::wantedUpdates() const {
+    // How many faces there are is known without waiting for it when averages begin. Of limited bounces each update is one.
+    const bool known = cache_.updates() >= IRRADIANCE_SETTLE && !settings_.bounces;
+    const int updates = known ? updatesOfFaces(settings_.updates, cache_.faces()) : settings_.updates;
+    return (changed_ && !changed_->most ? 2 : 1) * updates;
+}
+
+int LitVoxels::missingUpdates() const { return std::max(wantedUpdates() - cache_.updates(), 0); }
 
 int LitVoxels::updates() const {
     const int made = cache_.updates();

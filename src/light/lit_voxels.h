@@ -32,6 +32,14 @@ struct RelightSettings {
 
 RelightSettings relightSettings(const TracedSettings& settings);
 
+// Of `updates`, what so many faces need: the more there are, the more of them the rays of a picture meet, and the more noise
+// may be left on each (docs/theory/4d_cache.md, "Updates of many faces").
+int updatesOfFaces(int updates, std::uint32_t faces);
+
+// Updates that so many faces need of `updates`: the more faces there are, the more of them the rays of a picture meet, and
+// the more noise may be left on each (docs/theory/4d_cache.md, "Updates of many faces").
+int updatesOfFaces(int updates, std::uint32_t faces);
+
 // How much a call of relight() does.
 struct Budget {
     bool oneUpdate = false;   // else all updates that are missing
@@ -90,7 +98,10 @@ class LitVoxels {
   private:
     int wantedUpdates() const;
     base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
+    int missingUpdates() const;
     base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
+    base::Steps updateTimes(const gl::Device& device, const Inputs& inputs, CacheSettings settings,
+                            int times);
     base::Steps drawLamps(const gl::Device& device, const Inputs& inputs, std::uint32_t faces, int rounds);
 
     LitFaces faces_;

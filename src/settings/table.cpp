@@ -186,7 +186,8 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
          "cosine-sampled rays per voxel face and update, and as many light-sampled ones"},
         {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
-         "updates of all voxel faces after a change; then the cache stands still"},
+         "updates of all voxel faces after a change, fewer of more than 262,144; then the cache stands "
+         "still"},
         {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",
          "faces updated per budgeted frame; 0: all"},
         {"time_budget", &TracedSettings::timeBudget, Numbers{0, 10000}, "ms",

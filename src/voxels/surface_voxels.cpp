@@ -123,9 +123,6 @@ std::uint32_t SurfaceVoxels::mostFragmentSlots() const {
     return isLate() ? impl_->late.most.slots : impl_->tail;
 }
 bool SurfaceVoxels::isLate() const { return impl_->late.words.pending(); }
-void SurfaceVoxels::putFaceCount(gl::Buffer& to, std::size_t offset) const {
-    to.copyRange(impl_->gridBlock, offsetof(gpu::VoxelGrid, faceCount), offset, 4);
-}
 void SurfaceVoxels::putFragmentSlots(gl::Buffer& to, std::size_t offset) const {
     if (isLate())
         to.copyRange(impl_->counters, std::size_t{4} * SURFACE_SLOTS, offset, 4);

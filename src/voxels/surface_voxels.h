@@ -106,8 +106,7 @@ class SurfaceVoxels {
     std::uint32_t mostOccupiedBricks() const;
     std::uint32_t mostFragmentSlots() const;
     bool isLate() const;  // the counts are on their way
-    // faceCount(), fragmentSlots() into a buffer, without waiting.
-    void putFaceCount(gl::Buffer& to, std::size_t offset) const;
+    // fragmentSlots() into a buffer, without waiting.
     void putFragmentSlots(gl::Buffer& to, std::size_t offset) const;
 
     const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()

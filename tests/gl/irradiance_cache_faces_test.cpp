@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "io/scene_file.h"
 #include "math/octahedral.h"
 #include "shared/irradiance.h"
 #include "support/cache_rig.h"
 #include "support/gl_fixture.h"
+#include "support/scenes.h"
 #include "voxels/voxel_record.h"
 
 namespace conelight::test {
@@ -19,8 +21,6 @@ namespace {
 
 using IrradianceCacheFacesTest = GlTest;
 
-// Updates visit every face once, those of a block of 16^3 voxels together, by direction and place in the
-// brick; so do they in the next run.
 // interleavedPlace of shaders/lib/interleave.glsl, as the bit of a voxel.
 std::uint32_t placeOf(const glm::ivec3& voxel, int axis) {
     const glm::uvec3 brick = glm::uvec3(voxel) / 4u;
@@ -32,8 +32,8 @@ std::uint32_t placeOf(const glm::ivec3& voxel, int axis) {
     return voxels::bitOfVoxel(glm::ivec3((glm::uvec3(voxel) ^ turn) & 3u));
 }
 
-TEST_F(IrradianceCacheFacesTest, OrderPutsLikeFacesTogether) {
-    const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
+// Updates visit every face once, those of a block of 16^3 voxels together, by direction and place in the brick.
+void expectLikeFacesTogether(const CacheRig& rig) {
     const std::uint32_t count = rig.surface.faceCount();
     const auto order = rig.cache.order().read<std::uint32_t>(count);
     const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
@@ -63,6 +63,24 @@ TEST_F(IrradianceCacheFacesTest, OrderPutsLikeFacesTogether) {
     }
     for (std::uint32_t i = 0; i < count; ++i)
         ASSERT_EQ(visits[i], (states[i].counts & CACHE_SHARES) == 0 ? 1 : 0) << i;
+}
+
+TEST_F(IrradianceCacheFacesTest, OrderPutsLikeFacesTogether) {
+    expectLikeFacesTogether(CacheRig(programs(), io::loadScene("builtin:spheres"), 48));
+}
+
+// A grid of more blocks than are sorted at once: balls at its corners and in its middle.
+TEST_F(IrradianceCacheFacesTest, OrderOfManyBlocksPutsLikeFacesTogether) {
+    Scene scene;
+    for (int i = 0; i < 9; ++i) {
+        const glm::vec3 corner(i % 2, i / 2 % 2, i / 4 % 2);
+        const glm::vec3 middle = i < 8 ? 30.0f * corner : glm::vec3(15);
+        addInstance(scene, sphereMesh(12, 8), {}, glm::translate(glm::mat4(1), middle));
+    }
+    const CacheRig rig(programs(), scene, 512);
+    const glm::ivec3 blocks = (rig.surface.grid().bricks() + 3) / 4;
+    ASSERT_GT(blocks.x * blocks.y * blocks.z, 8192);
+    expectLikeFacesTogether(rig);
 }
 
 // Faces that do not gather name one of their own voxel that does, and hold its surface or next to nothing of

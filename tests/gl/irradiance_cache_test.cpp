@@ -369,6 +369,39 @@ TEST_F(IrradianceCacheTest, NoLightThroughAThinWall) {
     EXPECT_LT(dark, 0.01 * lit);
 }
 
+// Pixels see the noise of faces shared among neighbours, and no light of the other side of a wall.
+TEST_F(IrradianceCacheTest, NeighboursShareNoiseAlone) {
+    std::vector<CachedFace> runs[2];
+    glm::vec3 middle(0);
+    float voxel = 0;
+    for (std::uint32_t seed = 0; seed < 2; ++seed) {
+        CacheRig rig(programs(), io::loadScene("builtin:leak"), 64);
+        rig.settings.seed = seed + 1;
+        rig.update(48);
+        runs[seed] = rig.faces();
+        middle = rig.scene.bounds().center();
+        voxel = rig.surface.grid().voxelSize;
+    }
+    double own = 0, shared = 0, lit[2] = {}, beside[2] = {};
+    int count[2] = {}, near[2] = {};
+    for (std::size_t i = 0; i < runs[0].size(); ++i) {
+        const CachedFace &a = runs[0][i], &b = runs[1][i];
+        if (a.dead || b.dead) continue;
+        const int side = a.position.x < middle.x ? 0 : 1;
+        lit[side] += grey(a.irradiance);
+        ++count[side];
+        own += std::pow(grey(a.irradiance) - grey(b.irradiance), 2);
+        shared += std::pow(grey(a.atPixels) - grey(b.atPixels), 2);
+        if (std::abs(a.position.x - middle.x) > 3 * voxel) continue;
+        beside[side] += grey(a.atPixels);
+        ++near[side];
+    }
+    EXPECT_LT(std::sqrt(shared), 0.5 * std::sqrt(own));
+    ASSERT_GT(std::min(near[0], near[1]), 100);
+    const int dark = lit[0] < lit[1] ? 0 : 1;
+    EXPECT_LT(beside[dark] / near[dark], 0.01 * lit[1 - dark] / count[1 - dark]);
+}
+
 // Faces of the floor below a box that stands on it are dead; the rest lives.
 TEST_F(IrradianceCacheTest, FacesInsideClosedObjectsAreLeftOut) {
     Scene scene = room(0.5f);

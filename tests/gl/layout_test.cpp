@@ -141,7 +141,7 @@ std::vector<Struct> cacheStructs() {
     return {
         ROW(LitFace, albedo, radiance, irradiance0, irradiance1),
         ROW(FaceCache, irradiance, counts),
-        ROW(CacheOrder, number, searches, binsPerChunk, chunkCount),
+        ROW(CacheOrder, number, searches, binsPerChunk, chunkCount, firstBlock, binCount, lastSweep, pad0),
         ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
             reflections, fireflyClamp, restartsNear, placeCount, draw, places, placeParts, lightEdits,
             editedEverywhere, editedEverywherePart, allLightEdits, lightScale, scaledEverywhere,

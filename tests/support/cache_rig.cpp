@@ -48,6 +48,7 @@ std::vector<CachedFace> CacheRig::faces() const {
     const auto records = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
     const auto materials = surface.faceMaterials().read<gpu::FaceMaterial>(surface.faceCount());
     const auto litFaces = lit.buffer().read<gpu::LitFace>(surface.faceCount());
+    const auto shown = cache.atPixels().read<glm::uvec2>(surface.faceCount());
     const float h = surface.grid().voxelSize;
     std::vector<CachedFace> faces;
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -62,6 +63,7 @@ std::vector<CachedFace> CacheRig::faces() const {
         face.radiance = voxels::unpackRgb9e5(l.radiance);
         const glm::vec2 rg = glm::unpackHalf2x16(l.irradiance0), b = glm::unpackHalf2x16(l.irradiance1);
         face.irradiance = {rg.x, rg.y, b.x};
+        face.atPixels = {glm::unpackHalf2x16(shown[i].x), glm::unpackHalf2x16(shown[i].y).x};
         face.area = voxels::unpackArea(materials[i]) * h * h;
         face.dead = (l.irradiance1 & FACE_INTERIOR) != 0;
         faces.push_back(face);

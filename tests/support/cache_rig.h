@@ -25,6 +25,7 @@ struct CachedFace {
     glm::vec3 albedo;
     glm::vec3 radiance;    // emission and reflected direct light
     glm::vec3 irradiance;  // indirect, over pi
+    glm::vec3 atPixels;    // the same, as pixels see it
     float area;            // m^2
     bool dead;
 };
