@@ -259,7 +259,7 @@ TEST_F(LightFieldChanges, NothingIsLeftOfALampsWay) {
     HostPicture host(scene_, lens());
     drawn(host);
     const Scene start = scene_;
-    for (const float step : {0.02f, 0.8f}) {
+    for (const float step : {0.03f, 0.8f}) {
         scene_ = start;
         LightField field;
         settle(field, settings);
@@ -273,7 +273,7 @@ TEST_F(LightFieldChanges, NothingIsLeftOfALampsWay) {
         LightField fresh;
         settle(fresh, settings);
         const std::vector<glm::vec4> expected = diffuseOf(fresh, host);
-        EXPECT_LT(hostDifference(diffuseOf(field, host), expected), 0.06) << step;
+        EXPECT_LT(hostDifference(diffuseOf(field, host), expected), 0.03) << step;
         EXPECT_NEAR(hostMean(diffuseOf(field, host)) / hostMean(expected), 1, 0.02) << step;
         EXPECT_GT(hostDifference(before, expected), 0.1) << step;
     }
