@@ -133,16 +133,15 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
     cache.exactDirect = settings_.exactHits;
     cache.facesPerUpdate = budget.oneUpdate ? budget.faces : 0;
     const int missing = missingUpdates();
-    const bool coarse = !settings_.bounces && !budget.oneUpdate;
-    if (coarse) {
-        const int passes = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
+    if (!settings_.bounces && !budget.oneUpdate) {
+        const int coarse = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
         cache.cosineRays = cache.lightRays = std::max(settings_.rays / 4, 1);
-        co_await cache_.updateInSteps(device, given, cache, passes);
-        if (passes > 0) revision_ = base::Revision::next();
+        co_await cache_.updateInSteps(device, given, cache, coarse);
+        if (coarse > 0) revision_ = base::Revision::next();
     }
     // Coarse ones have found out how many faces there are to update.
-    const int passes =
-        coarse ? missingUpdates() : (budget.oneUpdate && !settings_.bounces ? std::min(missing, 1) : missing);
+    int passes = missingUpdates();
+    if (budget.oneUpdate && !settings_.bounces) passes = std::min(passes, 1);
     // Those that average get another draw of lamps than those before; the rays of few updates all draws at once.
     if (passes > 0)
         co_await drawLamps(device, inputs, settings_.bounces ? 0 : cache.facesPerUpdate,

@@ -36,10 +36,6 @@ RelightSettings relightSettings(const TracedSettings& settings);
 // may be left on each (docs/theory/4d_cache.md, "Updates of many faces").
 int updatesOfFaces(int updates, std::uint32_t faces);
 
-// Updates that so many faces need of `updates`: the more faces there are, the more of them the rays of a picture meet, and
-// the more noise may be left on each (docs/theory/4d_cache.md, "Updates of many faces").
-int updatesOfFaces(int updates, std::uint32_t faces);
-
 // How much a call of relight() does.
 struct Budget {
     bool oneUpdate = false;   // else all updates that are missing
@@ -97,11 +93,9 @@ class LitVoxels {
 
   private:
     int wantedUpdates() const;
-    base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
     int missingUpdates() const;
+    base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
     base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
-    base::Steps updateTimes(const gl::Device& device, const Inputs& inputs, CacheSettings settings,
-                            int times);
     base::Steps drawLamps(const gl::Device& device, const Inputs& inputs, std::uint32_t faces, int rounds);
 
     LitFaces faces_;
