@@ -169,6 +169,7 @@ struct MovedPictures {
     Image moving, truth;
 };
 MovedPictures moveLast(Scene scene, Settings settings, const glm::vec3& step) {
+    settings.traced.cacheUpdates = 32;  // the light of faces is no matter
     Renderer renderer;
     renderer.setScene(scene);
     const auto drawn = [&](Renderer& by) {
