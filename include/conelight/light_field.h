@@ -116,7 +116,8 @@ struct LookupSlots {
 // float conelight_voxelSize(vec3 position). One text reads one grid and nested ones.
 CONELIGHT_API std::string lookupsGlsl(const LookupSlots& slots = {});
 
-// Settings for pictures that move: traced.budgeted is on. LightField reads the groups voxels, light, traced.
+// Settings for pictures that move: traced.budgeted is on, and traced.cache_updates is 32 at least, as shaders of the host
+// see single faces. LightField reads the groups voxels, light, traced.
 CONELIGHT_API Settings realtimeSettings(Quality quality = Quality::Interactive);
 
 class CONELIGHT_API LightField {

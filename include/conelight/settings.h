@@ -152,7 +152,7 @@ struct TracedSettings {
     int filterLevels = 3;
     // Cache of irradiance
     int cacheRays = 2;
-    int cacheUpdates = 32;
+    int cacheUpdates = 16;
     int faceBudget = 0;
     float timeBudget = 0;
     std::optional<int> bounces;  // nothing: all

@@ -224,14 +224,10 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
 #endif
         radiance = throughGlass(radiance, drawn.ray, hit);
 #if FIND_BACK_FACES
-        // Discard rays that passed a back face
+        // Count rays that passed a back face
         VoxelHit searched = hit;
         if (lightSampled) searched.t = -1.0;
-        if (passedBackFace(drawn.ray, searched)) {
-            hit.face = -1;
-            radiance = vec3(0.0);
-            backFaces += lightSampled ? 0.0 : 1.0;
-        }
+        if (passedBackFace(drawn.ray, searched)) backFaces += 1.0;
 #endif
 
         LEARN_SKY(drawn.valid && !lightSampled, hit, drawn.ray.direction, radiance);

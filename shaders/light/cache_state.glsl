@@ -5,7 +5,9 @@
 int stateOwner(int face, uvec4 texel) { return (texel.w & CACHE_SHARES) != 0u ? int(texel.x) : face; }
 FaceCache unpackState(uvec4 texel) { return FaceCache(uintBitsToFloat(texel.xyz), texel.w); }
 
+// Whether more than a quarter of the rays so far have met a surface from behind first.
+bool looksInterior(FaceCache state) { return 4u * (state.counts >> 24) > ((state.counts >> 16) & 0xffu); }
+
 bool isInterior(FaceCache state) {
-    uint rays = (state.counts >> 16) & 0xffu;
-    return rays >= IRRADIANCE_INTERIOR_RAYS && 4u * (state.counts >> 24) > rays;
+    return ((state.counts >> 16) & 0xffu) >= IRRADIANCE_INTERIOR_RAYS && looksInterior(state);
 }

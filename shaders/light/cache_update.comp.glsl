@@ -55,18 +55,20 @@ void main() {
     endLearning(cache.cosineRays);
 #endif
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
+#if FIND_BACK_FACES
+    uint rays = (state.counts >> 16) & 0xffu;
+    if (rays + cache.cosineRays < 256u)
+        state.counts +=
+            (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
+    // What few rays take for the inside of something holds no light until more rays know better.
+    if (looksInterior(state)) found = gatheredCached = returnedCached = vec3(0.0);
+#endif
     uint updates = state.counts & CACHE_UPDATES_MASK;
     // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like
     // sqrt(n): what came before bounces had settled is soon outweighed.
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
     state.irradiance += (found - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, CACHE_UPDATES_MASK);
-#if FIND_BACK_FACES
-    uint rays = (state.counts >> 16) & 0xffu;
-    if (rays + cache.cosineRays < 256u)
-        state.counts +=
-            (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
-#endif
     states[face] = state;
     gathered[face] = uvec2(packRgb9e5(found - gatheredCached), packRgb9e5(returnedCached));
 }

@@ -23,6 +23,9 @@ constexpr int kSteadyUpdates = 14;
 // So many faces have all their updates.
 constexpr std::uint32_t kFacesOfAllUpdates = 1u << 18;
 
+// What is left of the light before a thing moved goes by so many more.
+constexpr int kUpdatesAfterMoves = 48;
+
 // With a limited number of bounces, of lamps that are drawn by chance, besides the first.
 constexpr int kLampDrawsOfBounces = 4;
 
@@ -158,12 +161,11 @@ base::Steps LitVoxels::redrawInSteps(const gl::Device& device, const Inputs& inp
                                   draw);
 }
 
-// What far faces have kept of the light before goes by twice as many.
 int LitVoxels::wantedUpdates() const {
+    const int updates = settings_.updates + (changed_ && !changed_->most ? kUpdatesAfterMoves : 0);
     // How many faces there are is known without waiting for it when averages begin. Of limited bounces each update is one.
     const bool known = cache_.updates() >= IRRADIANCE_SETTLE && !settings_.bounces;
-    const int updates = known ? updatesOfFaces(settings_.updates, cache_.faces()) : settings_.updates;
-    return (changed_ && !changed_->most ? 2 : 1) * updates;
+    return known ? updatesOfFaces(updates, cache_.faces()) : updates;
 }
 
 int LitVoxels::missingUpdates() const { return std::max(wantedUpdates() - cache_.updates(), 0); }

@@ -78,8 +78,11 @@ struct LightField::Impl {
 };
 
 Settings realtimeSettings(Quality quality) {
+    // Rays of pixels average many faces, lookups of hosts do not. A frame takes no longer for it.
+    constexpr int kUpdatesOfLookups = 32;
     Settings settings;
     applyQuality(settings.traced, quality);
+    settings.traced.cacheUpdates = std::max(settings.traced.cacheUpdates, kUpdatesOfLookups);
     settings.traced.budgeted = true;
     return settings;
 }

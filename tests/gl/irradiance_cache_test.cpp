@@ -428,6 +428,26 @@ TEST_F(IrradianceCacheTest, FacesInsideClosedObjectsAreLeftOut) {
     EXPECT_EQ(outsideDead, 0) << "of " << outside;
 }
 
+// Below a sheet that has its front above, rays pass its back. By one ray each, 16 updates search.
+TEST_F(IrradianceCacheTest, UpdatesThatSearchFindTheSameLight) {
+    Scene scene = room(0.5f);
+    scene.lights[0].position = {0.5f, 0.95f, 0.5f};
+    addInstance(scene, quadMesh({0.3f, 0.8f, 0.3f}, {0, 0, 0.4f}, {0.4f, 0, 0}),
+                diffuseMaterial(glm::vec3(0.5f)));
+    CacheRig rig(programs(), scene, 64);
+    rig.settings.cosineRays = rig.settings.lightRays = 1;
+    const auto floor = [&] {
+        return rig.mean([](const CachedFace& f) { return grey(f.irradiance); },
+                        [](const CachedFace& f) { return f.position.y < 0.1f && f.normal.y > 0.9f; });
+    };
+    rig.update(16);
+    const double searched = floor();
+    rig.update(64);
+    EXPECT_GT(searched, 0);
+    RecordProperty("searched", std::to_string(searched / floor()));
+    EXPECT_NEAR(searched / floor(), 1, 0.01);
+}
+
 // Built anew without a change, light stays; a box that moves leaves the light of all else alone.
 TEST_F(IrradianceCacheTest, LightSurvivesNewVoxels) {
     Scene scene = io::loadScene("builtin:cornell");
