@@ -169,7 +169,7 @@ struct MovedPictures {
     Image moving, truth;
 };
 MovedPictures moveLast(Scene scene, Settings settings, const glm::vec3& step) {
-    settings.traced.cacheUpdates = 32;  // the light of faces is no matter
+    settings.traced.cacheUpdates = 32;  // of 16, faces that are too bright by chance hide what moved
     Renderer renderer;
     renderer.setScene(scene);
     const auto drawn = [&](Renderer& by) {
