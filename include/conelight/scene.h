@@ -358,8 +358,9 @@ CONELIGHT_API glm::vec3 environmentDirection(const glm::vec2& uv);
 // twentieth of the picture's light.
 CONELIGHT_API bool splitSun(Scene& scene);
 
-// Adds what a scene needs to be seen: a camera when there is none, and a studio with a ground (studio.h)
-// when there is no light, no emission and no sky. What was added is appended to `notes`.
+// Adds what a scene needs to be seen: a camera when there is none, inside if the scene is a room; and a studio with a
+// ground (studio.h), in rooms a lamp, when there is no light, no emission and no sky. What was added is appended to
+// `notes`. docs/theory/1_scene.md, "What a scene lacks".
 CONELIGHT_API void completeScene(Scene& scene);
 
 }  // namespace conelight

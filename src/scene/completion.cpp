@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "conelight/scene.h"
 #include "conelight/studio.h"
+#include "scene/enclosure.h"
 #include "scene/framing.h"
 
 namespace conelight {
@@ -82,14 +84,18 @@ Light studioLamp(const Camera& camera, const Aabb& bounds) {
 }
 
 // Under the ceiling, so bright that the floor gets what the studio's lamp would give.
-Light roomLight(const Aabb& bounds) {
+Light roomLight(const scene::Enclosure::Lamp& lamp) {
     Light light;
     light.name = "room light";
     light.type = LightType::Point;
-    light.position = bounds.center() + glm::vec3(0, 0.35f * bounds.extent().y, 0);
-    const float height = 0.85f * bounds.extent().y;
-    light.intensity = glm::vec3(float(kLampIrradiance) * height * height);
+    light.position = lamp.position;
+    light.intensity = glm::vec3(float(kLampIrradiance) * lamp.height * lamp.height);
     return light;
+}
+
+scene::Enclosure::Lamp lampOf(const Aabb& bounds) {
+    const float height = bounds.extent().y;
+    return {bounds.center() + glm::vec3(0, 0.35f * height, 0), 0.85f * height};
 }
 
 // Irradiance of the picture's upper half on the ground, W/m^2.
@@ -170,12 +176,13 @@ bool addGround(Scene& scene, const Aabb& bounds) {
 
 // A closed room keeps out what comes from outside, and is lit within as well. Things whose triangles are only
 // wound the wrong way round pass for rooms; they have the studio outside.
-void addStudio(Scene& scene, const Aabb& bounds, bool ground) {
+void addStudio(Scene& scene, const Aabb& bounds, bool ground,
+               const std::optional<scene::Enclosure::Lamp>& inside) {
     const glm::vec3 size = bounds.extent();
-    const bool isRoom = enclosedVolume(scene, bounds.center()) < -0.5f * size.x * size.y * size.z;
+    const bool isRoom = inside || enclosedVolume(scene, bounds.center()) < -0.5f * size.x * size.y * size.z;
     const Camera& camera = scene.cameras.front();
     scene.lights.push_back(studioLamp(camera, bounds));
-    if (isRoom) scene.lights.push_back(roomLight(bounds));
+    if (isRoom) scene.lights.push_back(roomLight(inside.value_or(lampOf(bounds))));
     // Seen from below, a lamp would stand behind the scene: the other side of the studio has none so low.
     const float turn = looksUp(camera) ? float(std::numbers::pi) : 0.0f;
     scene.environment = studioSurroundings(headingOf(camera) + turn);
@@ -186,18 +193,20 @@ void addStudio(Scene& scene, const Aabb& bounds, bool ground) {
                                       : "no light, lamp or sky in the scene: a studio was added");
 }
 
+bool isOn(const Light& light) { return light.enabled && glm::dot(light.intensity, glm::vec3(1)) > 0; }
+
+bool isLamp(const Scene& scene, const Instance& instance) {
+    if (!instance.visible || instance.material < 0) return false;
+    const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+    return !material.unlit && glm::dot(material.emission, glm::vec3(1)) > 0 &&
+           isMostlyLit(scene, material.emissiveTexture);
+}
+
 bool hasLight(const Scene& scene) {
-    if (glm::dot(scene.sky, glm::vec3(1)) > 0 || scene.environment.used()) return true;
-    for (const Light& light : scene.lights)
-        if (light.enabled && glm::dot(light.intensity, glm::vec3(1)) > 0) return true;
-    for (const Instance& instance : scene.instances) {
-        if (!instance.visible || instance.material < 0) continue;
-        const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-        if (!material.unlit && glm::dot(material.emission, glm::vec3(1)) > 0 &&
-            isMostlyLit(scene, material.emissiveTexture))
-            return true;
-    }
-    return false;
+    return glm::dot(scene.sky, glm::vec3(1)) > 0 || scene.environment.used() ||
+           std::any_of(scene.lights.begin(), scene.lights.end(), isOn) ||
+           std::any_of(scene.instances.begin(), scene.instances.end(),
+                       [&](const Instance& instance) { return isLamp(scene, instance); });
 }
 
 // Baked scenes are unlit throughout.
@@ -208,6 +217,66 @@ bool needsLight(const Scene& scene) {
     });
 }
 
+// m; of surfaces that shine, one place of each.
+struct LampPlaces {
+    std::vector<glm::vec3> inside, outside;  // of an enclosure
+};
+
+LampPlaces placesOfLamps(const Scene& scene, const scene::Enclosure& enclosure) {
+    LampPlaces places;
+    for (const Light& light : scene.lights)
+        if (isOn(light) && light.type != LightType::Directional)
+            (enclosure.contains(light.position) ? places.inside : places.outside).push_back(light.position);
+    for (const Instance& instance : scene.instances) {
+        if (!isLamp(scene, instance)) continue;
+        std::optional<glm::vec3> inside, any;
+        scene::forTriangles(scene, instance, [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+            any = (a + b + c) / 3.0f;
+            if (!inside && enclosure.contains(*any)) inside = any;
+        });
+        if (inside)
+            places.inside.push_back(*inside);
+        else if (any)
+            places.outside.push_back(*any);
+    }
+    return places;
+}
+
+bool isLitFromAfar(const Scene& scene) {
+    return glm::dot(scene.sky, glm::vec3(1)) > 0 || scene.environment.used() ||
+           std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+               return isOn(light) && light.type == LightType::Directional;
+           });
+}
+
+// Rooms have more than a third of their bounds inside. They are seen from there where they have lamps, or something to
+// be lit and light that comes in, or will get a lamp. Where it is dark outside, a tenth of the bounds is enough.
+std::optional<Camera> cameraInside(const Scene& scene, scene::Enclosure& enclosure, bool lacksLight) {
+    const LampPlaces lamps = placesOfLamps(scene, enclosure);
+    enclosure.keepRoomsOf(lamps.inside);
+    const bool isRoom = enclosure.share() > 1.0f / 3.0f;
+    const bool isFurnished = isRoom && enclosure.isFurnished() && (lacksLight || enclosure.hasWindows());
+    const bool isDarkOutside = lamps.outside.empty() && !isLitFromAfar(scene);
+    const bool isLit = !lamps.inside.empty() && (isRoom || (enclosure.share() > 0.1f && isDarkOutside));
+    return isFurnished || isLit ? enclosure.cameraInside(lamps.inside) : std::nullopt;
+}
+
+// The camera that a scene lacks, and where a lamp belongs if that stands in a room.
+std::optional<scene::Enclosure::Lamp> addCamera(Scene& scene, const Aabb& bounds, const scene::Floor& floor,
+                                                bool lacksLight) {
+    scene::Enclosure enclosure(scene, bounds);
+    if (const std::optional<glm::vec3> side = enclosure.openSide())
+        scene.cameras.push_back(scene::frameShape(scene, bounds, floor, *side));
+    else if (const std::optional<Camera> inside = cameraInside(scene, enclosure, lacksLight)) {
+        scene.cameras.push_back(*inside);
+        scene.notes.emplace_back("no camera in the scene: one in its room was added");
+        return enclosure.lamp();
+    } else
+        scene.cameras.push_back(scene::frameShape(scene, bounds, floor));
+    scene.notes.emplace_back("no camera in the scene: one that frames it was added");
+    return {};
+}
+
 }  // namespace
 
 void completeScene(Scene& scene, const CompletionOptions& options) {
@@ -215,11 +284,9 @@ void completeScene(Scene& scene, const CompletionOptions& options) {
     const bool lacksLight = !bounds.empty() && needsLight(scene) && !hasLight(scene);
     if (!lacksLight && !scene.cameras.empty()) return;
     const scene::Floor floor = scene::floorOf(scene, bounds);
-    if (scene.cameras.empty()) {
-        scene.cameras.push_back(scene::frameShape(scene, bounds, floor));
-        scene.notes.emplace_back("no camera in the scene: one that frames it was added");
-    }
-    if (lacksLight) addStudio(scene, bounds, options.ground && !floor.carries);
+    std::optional<scene::Enclosure::Lamp> inside;
+    if (scene.cameras.empty()) inside = addCamera(scene, bounds, floor, lacksLight);
+    if (lacksLight) addStudio(scene, bounds, options.ground && !floor.carries, inside);
 }
 
 void completeScene(Scene& scene) { completeScene(scene, {}); }

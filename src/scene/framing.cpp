@@ -6,25 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/coarse_grid.h"
+
 namespace conelight {
+using scene::forTriangles;
 namespace {
 
 // From where a framed scene is seen: from the front, a little from the right and above.
 const glm::vec3 kFrontSide = glm::normalize(glm::vec3(0.35f, 0.25f, 1.0f));
-
-// Calls `use` with the corners of each visible triangle, in the world.
-template <class Use>
-void forTriangles(const Scene& scene, const Use& use) {
-    for (const Instance& instance : scene.instances) {
-        if (!instance.visible || instance.mesh < 0) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto corner = [&](std::size_t k) {
-            return glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[mesh.indices[k]], 1));
-        };
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-            use(corner(i), corner(i + 1), corner(i + 2));
-    }
-}
 
 // Reaches of points beyond the four sides of a square picture whose eye is at the origin: by them the nearest eye that
 // sees all points is found at once.
@@ -132,11 +121,14 @@ Floor floorOf(const Scene& scene, const Aabb& bounds) {
 }
 
 Camera frameShape(const Scene& scene, const Aabb& bounds, const Floor& floor) {
+    return frameShape(scene, bounds, floor, sideToSee(scene));
+}
+
+Camera frameShape(const Scene& scene, const Aabb& bounds, const Floor& floor, const glm::vec3& side) {
     constexpr float kMargin = 1.12f;
     Camera camera;
     camera.name = "framed";
     if (bounds.empty()) return camera;
-    const glm::vec3 side = sideToSee(scene);
     takeUp(camera, side);
     const float slope = std::tan(0.5f * camera.fovY) / kMargin;
     // Numbers are of the bounds' size: those of models far from the origin would lose their digits.

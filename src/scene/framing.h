@@ -16,5 +16,7 @@ Floor floorOf(const Scene& scene, const Aabb& bounds);
 // From the front, a little from the right and above; a single sheet from the side that it faces. All that rises above
 // the floor just fills a square picture, or all there is where nothing does.
 Camera frameShape(const Scene& scene, const Aabb& bounds, const Floor& floor);
+// The same from another side.
+Camera frameShape(const Scene& scene, const Aabb& bounds, const Floor& floor, const glm::vec3& side);
 
 }  // namespace conelight::scene
