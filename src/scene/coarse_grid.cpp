@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace conelight::scene {
 namespace {
@@ -15,12 +16,21 @@ bool isClear(const Scene& scene, const Instance& instance) {
     return isTransmissive(material) || material.alphaMode == AlphaMode::Blend;
 }
 
+// Downwards; what is no number is `least`.
+int wholeWithin(float x, int least, int most) {
+    return static_cast<int>(
+        std::floor(std::fmin(std::fmax(x, static_cast<float>(least)), static_cast<float>(most))));
+}
+
 }  // namespace
 
 CoarseGrid::CoarseGrid(const Scene& scene, const Aabb& bounds, int cells) {
     const glm::vec3 extent = bounds.extent();
     edge_ = std::max({extent.x, extent.y, extent.z, 1e-6f}) / static_cast<float>(cells);
-    size_ = glm::ivec3(glm::ceil(extent / edge_)) + 1 + 2 * kBorder;
+    // Of bounds beyond the range of floats all is in a few cells.
+    if (!std::isfinite(edge_)) edge_ = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis)
+        size_[axis] = wholeWithin(std::ceil(extent[axis] / edge_), 0, cells) + 1 + 2 * kBorder;
     // Half a cell of room on either side: rounding leaves no surface in the border.
     origin_ = bounds.center() - 0.5f * edge_ * glm::vec3(size_);
     cells_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
@@ -36,7 +46,9 @@ CoarseGrid::CoarseGrid(const Scene& scene, const Aabb& bounds, int cells) {
 }
 
 glm::ivec3 CoarseGrid::cellOf(const glm::vec3& p) const {
-    return glm::clamp(glm::ivec3(glm::floor((p - origin_) / edge_)), glm::ivec3(0), size_ - 1);
+    const glm::vec3 at = (p - origin_) / edge_;
+    return {wholeWithin(at.x, 0, size_.x - 1), wholeWithin(at.y, 0, size_.y - 1),
+            wholeWithin(at.z, 0, size_.z - 1)};
 }
 
 void CoarseGrid::count(const glm::vec3& p) {
@@ -52,7 +64,7 @@ void CoarseGrid::touch(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
     const glm::vec3 normal = glm::cross(b - a, c - a), size = glm::abs(normal);
     const int w = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
     const int u = (w + 1) % 3, v = (w + 2) % 3;
-    if (size[w] <= 0) return;  // its corners count
+    if (!(size[w] > 0)) return;  // its corners count
     const float turn = normal[w] > 0 ? 1.0f : -1.0f;
     const std::array<glm::vec3, 3> corners = {a, b, c};
     // How far a square's middle may lie outside an edge while the square still meets the inside.
@@ -76,7 +88,7 @@ void CoarseGrid::touch(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
             if (!meets({p[u], p[v]})) continue;
             const float height = a[w] + slopeU * (p[u] - a[u]) + slopeV * (p[v] - a[v]);
             const auto level = [&](float z) {
-                return std::clamp(static_cast<int>(std::floor((z - origin_[w]) / edge_)), low[w], high[w]);
+                return wholeWithin((z - origin_[w]) / edge_, low[w], high[w]);
             };
             for (cell[w] = level(height - half); cell[w] <= level(height + half); ++cell[w])
                 cells_[at(cell)] |= kTouched;

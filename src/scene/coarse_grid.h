@@ -15,7 +15,8 @@ class CoarseGrid {
   public:
     static constexpr int kBorder = 1;  // empty cells on each side
 
-    // All visible triangles that nothing is seen through, in `cells` cells along the longest edge of their bounds, and empty ones around them.
+    // All visible triangles that nothing is seen through, in `cells` cells along the longest edge of their bounds, and
+    // empty ones around them.
     CoarseGrid(const Scene& scene, const Aabb& bounds, int cells);
 
     glm::ivec3 size() const { return size_; }

@@ -142,6 +142,17 @@ TEST(EnclosureTest, OfSeveralRoomsTheLitOneIsSeen) {
     }
 }
 
+// Points, sheets, and what is larger than floats can tell.
+TEST(EnclosureTest, ScenesOfAnySizeGetACamera) {
+    for (const float size : {0.0f, 1e-30f, 1e-3f, 1e9f, 1e25f, 3e38f})
+        for (const float depth : {0.0f, 1.0f}) {
+            Scene scene;
+            addInstance(scene, boxMesh(), {}, glm::scale(glm::mat4(1), {size, size, size * depth}));
+            completeScene(scene);
+            EXPECT_EQ(scene.cameras.size(), 1u) << size << " " << depth;
+        }
+}
+
 // Rooms of many kinds without their cameras: lamps that glow, windows, corners, pillars, one lamp at the end of a passage.
 TEST(EnclosureTest, FirstPicturesOfGeneratedRoomsAreNotBlack) {
     for (const char* name : {"study", "parlour", "bathroom", "cellar", "counter", "attic", "sunroom",
