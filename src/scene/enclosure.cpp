@@ -210,13 +210,16 @@ bool Enclosure::sees(const glm::ivec3& cell, const glm::vec3& p) const {
 }
 
 std::optional<Camera> Enclosure::cameraInside(const std::vector<glm::vec3>& lamps) const {
-    constexpr std::size_t kMostPlaces = 400;
+    constexpr std::size_t kMostPlaces = 400, kMostLamps = 64;
     constexpr int kTurns = 16;
+    const std::size_t each = lamps.size() / kMostLamps + 1;
+    const auto isLit = [&](const Cell& place) {
+        for (std::size_t i = 0; i < lamps.size(); i += each)
+            if (sees(place.index, lamps[i])) return true;
+        return false;
+    };
     std::vector<Cell> places = placesOfEyes();
-    const auto dark = std::stable_partition(places.begin(), places.end(), [&](const Cell& place) {
-        return std::any_of(lamps.begin(), lamps.end(),
-                           [&](const glm::vec3& lamp) { return sees(place.index, lamp); });
-    });
+    const auto dark = std::stable_partition(places.begin(), places.end(), isLit);
     if (dark != places.begin()) places.erase(dark, places.end());
     const std::size_t step = places.size() / kMostPlaces + 1;
     std::optional<Camera> best;

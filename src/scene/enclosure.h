@@ -60,10 +60,10 @@ class Enclosure {
     std::vector<char> inside_;  // of cells
     float share_ = 0;           // of all cells
     float sheltered_ = 0;       // of all cells, those that most directions do not leave
-    float detail_ = 0;          // part of triangles' corners that outside cells do not touch
-    float open_ = 0;            // of directions, where it is least open
-    std::array<float, 4>
-        ways_{};  // of sheltered cells, those from which a level way leads outside: +x, -x, +z, -z
+    float detail_ = 0;          // part of triangles' corners that are not seen from outside
+    float open_ = 0;            // of all directions from inside, those that lead outside
+    // Of sheltered cells, those from which one looks outside along +x, -x, +z, -z.
+    std::array<float, 4> ways_{};
 };
 
 }  // namespace conelight::scene
