@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/triangles.h"
+
 namespace conelight::scene {
 namespace {
 

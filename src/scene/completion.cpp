@@ -10,6 +10,7 @@
 #include "conelight/studio.h"
 #include "scene/enclosure.h"
 #include "scene/framing.h"
+#include "scene/triangles.h"
 
 namespace conelight {
 namespace {
@@ -40,16 +41,9 @@ bool isMostlyLit(const Scene& scene, const TextureRef& use) {
 // Volume that the triangles enclose, m^3: below 0 where they face inwards, as the walls of rooms do.
 float enclosedVolume(const Scene& scene, const glm::vec3& center) {
     float sum = 0;
-    for (const Instance& instance : scene.instances) {
-        if (!instance.visible) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        const auto corner = [&](std::size_t k) {
-            return glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[mesh.indices[k]], 1)) -
-                   center;
-        };
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-            sum += glm::dot(corner(i), glm::cross(corner(i + 1), corner(i + 2))) / 6;
-    }
+    scene::forTriangles(scene, [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+        sum += glm::dot(a - center, glm::cross(b - center, c - center)) / 6;
+    });
     return sum;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace conelight::scene {
@@ -17,7 +18,7 @@ constexpr float kMostOfRooms = 0.15f, kMostOfStages = 0.4f;
 constexpr float kOpenSide = 0.6f;
 constexpr std::array<glm::vec3, 4> kSides = {{{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}}};
 
-// Spread evenly over the sphere (Fibonacci).
+// Spread evenly over the sphere: a Fibonacci lattice, whose turns are the golden angle.
 template <std::size_t N>
 std::array<glm::vec3, N> evenDirections() {
     std::array<glm::vec3, N> all;
@@ -226,7 +227,7 @@ std::optional<Camera> Enclosure::cameraInside(const std::vector<glm::vec3>& lamp
     float most = 0;
     for (std::size_t i = 0; i < places.size(); i += step)
         for (int turn = 0; turn < kTurns; ++turn) {
-            const View view(6.2831853f * static_cast<float>(turn) / kTurns);
+            const View view(2 * std::numbers::pi_v<float> * static_cast<float>(turn) / kTurns);
             const float worth = view.worth(grid_, places[i].index);
             if (best && worth <= most) continue;
             most = worth;

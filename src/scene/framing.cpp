@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/coarse_grid.h"
+#include "scene/triangles.h"
 
 namespace conelight {
 using scene::forTriangles;
