@@ -150,6 +150,9 @@ struct TracedSettings {
     float specularLimit = 0.6f;
     int passes = 16;
     int filterLevels = 3;
+    // Rays for irradiance of one of reduction x reduction pixels, 1 to 4; all show what those about them gathered on the same
+    // surface. For a LightField see GatherOptions.
+    int reduction = 1;
     // Cache of irradiance
     int cacheRays = 2;
     int cacheUpdates = 16;
@@ -165,9 +168,9 @@ struct TracedSettings {
     bool budgeted = false;
     bool operator==(const TracedSettings&) const = default;
 };
-// Fills in all fields but `bounces` and `budgeted`.
+// Fills in all fields but `reduction`, `bounces` and `budgeted`.
 CONELIGHT_API void applyQuality(TracedSettings& settings, Quality quality);
-// The quality that gives these settings, whatever `bounces` and `budgeted` are; nothing when none does.
+// The quality that gives these settings, whatever those three are; nothing when none does.
 CONELIGHT_API std::optional<Quality> qualityOf(const TracedSettings& settings);
 
 // Edges of the scene's triangles: over the picture, hidden ones left out, or alone, all of them.

@@ -54,10 +54,17 @@ bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
                        [&](const gpu::Instance& one) { return mayHaveCoatLobe(inputs.scene, one); });
 }
 
+// At fewer pixels, if there are any.
+RayInputs reducedInputs(const RayInputs& inputs, const view::Surfaces* reduced) {
+    if (reduced == nullptr) return inputs;
+    return {inputs.scene, inputs.lights, inputs.voxels, inputs.lit, *reduced};
+}
+
 }  // namespace
 
 // Histories of other light or of other settings are old.
-void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
+void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings,
+                      const view::Surfaces* reduced) {
     if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
         for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_}) one->history.passes = 0;
     const base::Revision lamps = inputs.lights.revision(), voxels = inputs.voxels.revision();
@@ -71,8 +78,10 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     const bool lost = unfinished_ && moved_;
     unfinished_ = true;
     // Surfaces may have been seen since the last picture without one.
-    const base::Revision movedFrom = inputs.surfaces.movedFrom();
-    if (lost || (movedFrom && movedFrom != instances_.at())) forget();
+    const auto unseen = [&](const view::Surfaces& surfaces) {
+        return surfaces.movedFrom() && surfaces.movedFrom() != instances_.at();
+    };
+    if (lost || unseen(inputs.surfaces) || (reduced != nullptr && unseen(*reduced))) forget();
     followInstances(inputs.scene);
 }
 
@@ -153,69 +162,75 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
 std::vector<Indirect::PictureRays> Indirect::wantedPictures(const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     std::vector<PictureRays> pictures;
-    if (wantsLamps(wanted, inputs)) pictures.push_back({&lamps_, kLampRays});
-    if (wantsIrradiance(wanted)) pictures.push_back({&diffuse_, settings.pixelRays});
-    if (wantsLobe(wanted, inputs)) pictures.push_back({&specular_, settings.specularRays});
-    if (wantsCoat(wanted, inputs)) pictures.push_back({&coats_, settings.specularRays});
+    if (wantsLamps(wanted, inputs)) pictures.push_back({&lamps_, kLampRays, inputs});
+    if (wantsIrradiance(wanted))
+        pictures.push_back({&diffuse_, settings.pixelRays, reducedInputs(inputs, wanted.reduced)});
+    if (wantsLobe(wanted, inputs)) pictures.push_back({&specular_, settings.specularRays, inputs});
+    if (wantsCoat(wanted, inputs)) pictures.push_back({&coats_, settings.specularRays, inputs});
     return pictures;
 }
 
-base::Steps Indirect::gatherAll(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+base::Steps Indirect::gatherAll(const gl::Device& device, const Wanted& wanted,
                                 const std::vector<PictureRays>& pictures) {
     const int passes = wanted.settings.passes;
     const auto passOf = [&](const PictureRays& one) {
         return RayPass{wanted.settings, one.rays, passes, 0, Reuse::None, nullptr, wanted.lookupCounters};
     };
     if (wanted.settings.budgeted) {
-        for (const PictureRays& one : pictures) co_await addPass(device, inputs, passOf(one), *one.gathered);
+        for (const PictureRays& one : pictures)
+            co_await addPass(device, one.inputs, passOf(one), *one.gathered);
         co_return;
     }
     int made = passes;
-    for (const PictureRays& one : pictures) made = std::min(made, keptPasses(inputs, *one.gathered));
+    for (const PictureRays& one : pictures) made = std::min(made, keptPasses(one.inputs, *one.gathered));
     // Each pass aims at light samples of its own: what one draw of them errs by, more passes do not average.
     for (; made < passes; ++made) {
         if (wanted.redraw) co_await wanted.redraw(static_cast<std::uint32_t>(made));
         for (const PictureRays& one : pictures)
-            co_await addPasses(device, inputs, passOf(one), made + 1, *one.gathered);
+            co_await addPasses(device, one.inputs, passOf(one), made + 1, *one.gathered);
     }
 }
 
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
-    follow(inputs, wanted.settings);
-    for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->picture = nullptr;
+    follow(inputs, wanted.settings, wanted.reduced);
+    for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->picture = one->found = nullptr;
     const std::vector<PictureRays> pictures = wantedPictures(inputs, wanted);
-    co_await gatherAll(device, inputs, wanted, pictures);
-    for (const PictureRays& one : pictures) {
-        co_await one.gathered->rays.filterInSteps(device, inputs, wanted.settings.filterLevels);
-        one.gathered->picture = &one.gathered->rays.filtered();
+    co_await gatherAll(device, wanted, pictures);
+    for (const auto& [gathered, rays, at] : pictures) {
+        co_await gathered->rays.filterInSteps(device, at, wanted.settings.filterLevels);
+        gathered->picture = gathered->found = &gathered->rays.filtered();
+        gathered->foundView = at.surfaces.view();
+        if (&at.surfaces == &inputs.surfaces) continue;
+        carryOne(device, inputs, wanted.settings, *gathered);
+        co_await gl::rest(device);
     }
-    for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->found = one->picture;
-    gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
+}
+
+// What gather() found, at other pixels.
+void Indirect::carryOne(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
+                        Gathered& gathered) {
+    if (gathered.found == nullptr) return;
+    const bool lobes = &gathered == &specular_ || &gathered == &coats_;
+    const CarriedPicture::From from{.picture = *gathered.found,
+                                    .view = gathered.foundView,
+                                    .lobes = lobes ? &gathered.rays.lobes() : nullptr,
+                                    .specularLimit = settings.specularLimit,
+                                    .coats = &gathered == &coats_,
+                                    .cached = &gathered != &lamps_};
+    gathered.picture = &gathered.carried.carry(device, inputs, from);
 }
 
 base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
                             const TracedSettings& settings) {
-    const auto carryOne = [&](Gathered& gathered, bool lobes) {
-        if (gathered.found == nullptr) return;
-        const CarriedPicture::From from{.picture = *gathered.found,
-                                        .view = gatheredView_,
-                                        .lobes = lobes ? &gathered.rays.lobes() : nullptr,
-                                        .specularLimit = settings.specularLimit,
-                                        .coats = &gathered == &coats_,
-                                        .cached = &gathered != &lamps_};
-        gathered.picture = &gathered.carried.carry(device, inputs, from);
-    };
-    carryOne(diffuse_, false);
-    co_await gl::rest(device);
-    carryOne(lamps_, false);
-    co_await gl::rest(device);
-    carryOne(specular_, true);
-    co_await gl::rest(device);
+    for (Gathered* one : {&diffuse_, &lamps_, &specular_}) {
+        carryOne(device, inputs, settings, *one);
+        co_await gl::rest(device);
+    }
     // Beside the pixels' centres there may be none.
     coats_.picture = nullptr;
     if (!inputs.surfaces.haveLayers()) co_return;
-    carryOne(coats_, true);
+    carryOne(device, inputs, settings, coats_);
     co_await gl::rest(device);
 }
 
@@ -235,12 +250,17 @@ base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs&
 }
 
 // The passes that a finished picture has.
-void Indirect::recordPasses(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
-                            const PictureRays& picture, StepRecorder& recorder) {
+void Indirect::recordPasses(const gl::Device& device, const Wanted& wanted, const PictureRays& picture,
+                            StepRecorder& recorder) {
     RayPass pass{wanted.settings, picture.rays, wanted.settings.passes};
+    // A picture of fewer pixels stays as it is.
+    PixelRays& gathered = picture.gathered->rays;
+    PixelRays apart(gathered.kind());
+    const view::Surfaces& surfaces = picture.inputs.surfaces;
+    PixelRays& rays = gathered.has(surfaces.width(), surfaces.height()) ? gathered : apart;
     for (; pass.number < static_cast<std::uint32_t>(pass.longest); ++pass.number) {
         if (wanted.redraw && !wanted.settings.budgeted) wanted.redraw(pass.number).finish();
-        picture.gathered->rays.record(device, inputs, pass, recorder);
+        rays.record(device, picture.inputs, pass, recorder);
     }
 }
 
@@ -248,9 +268,9 @@ void Indirect::record(const gl::Device& device, const RayInputs& inputs, const W
                       StepRecorder& recorder) {
     const TracedSettings& settings = wanted.settings;
     if (wantsIrradiance(wanted))
-        recordPasses(device, inputs, wanted, {&diffuse_, settings.pixelRays}, recorder);
+        recordPasses(device, wanted, {&diffuse_, settings.pixelRays, inputs}, recorder);
     if (wantsLobe(wanted, inputs))
-        recordPasses(device, inputs, wanted, {&specular_, settings.specularRays}, recorder);
+        recordPasses(device, wanted, {&specular_, settings.specularRays, inputs}, recorder);
 }
 
 void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs,

@@ -29,6 +29,8 @@ class Indirect {
         PictureParts parts;
         const gl::Buffer* lookupCounters = nullptr;
         Redraw redraw = {};
+        // Not null: the same picture in fewer pixels, whose irradiance is that of all.
+        const view::Surfaces* reduced = nullptr;
     };
 
     // Gathers what the settings ask rays for. GL state changed: as PixelRays.
@@ -72,18 +74,23 @@ class Indirect {
         PixelRays rays;
         History history;
         CarriedPicture carried;
-        const gl::Texture* found = nullptr;    // by gather(), which carry() starts from
+        const gl::Texture* found = nullptr;  // by gather(), which carry() starts from
+        gpu::FrameConstants foundView{};
         const gl::Texture* picture = nullptr;  // of the last gather() or carry()
     };
     void forget();
-    void follow(const RayInputs& inputs, const TracedSettings& settings);
+    void follow(const RayInputs& inputs, const TracedSettings& settings,
+                const view::Surfaces* reduced = nullptr);
     void followInstances(const scene::GpuScene& scene);
-    // A picture that is asked for, by so many rays of a pixel in a pass.
+    // A picture that is asked for, at these pixels, by so many rays of each in a pass.
     struct PictureRays {
         Gathered* gathered;
         int rays;
+        RayInputs inputs;
     };
     std::vector<PictureRays> wantedPictures(const RayInputs& inputs, const Wanted& wanted);
+    void carryOne(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
+                  Gathered& gathered);
     static bool isKnown(const RayInputs& inputs, const Gathered& gathered);
     bool isStill(const RayInputs& inputs, const Gathered& gathered) const;
     int keptPasses(const RayInputs& inputs, Gathered& gathered);
@@ -91,9 +98,9 @@ class Indirect {
                         Gathered& gathered);
     base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int until,
                           Gathered& gathered);
-    void recordPasses(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
-                      const PictureRays& picture, StepRecorder& recorder);
-    base::Steps gatherAll(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+    void recordPasses(const gl::Device& device, const Wanted& wanted, const PictureRays& picture,
+                      StepRecorder& recorder);
+    base::Steps gatherAll(const gl::Device& device, const Wanted& wanted,
                           const std::vector<PictureRays>& pictures);
 
     Gathered diffuse_{PixelRays(RayPicture::Diffuse), {}, {}};
@@ -101,7 +108,6 @@ class Indirect {
     Gathered coats_{PixelRays(RayPicture::Coat), {}, {}};
     Gathered occlusion_{PixelRays(RayPicture::Occlusion), {}, {}};
     Gathered lamps_{PixelRays(RayPicture::Lamps), {}, {}};
-    gpu::FrameConstants gatheredView_{};  // of what was found
 
     scene::InstanceHistory instances_;  // since the last picture
     gl::Buffer motion_;                 // where from they have come since

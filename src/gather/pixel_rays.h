@@ -83,6 +83,7 @@ bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, fl
 class PixelRays {
   public:
     explicit PixelRays(RayPicture kind) : kind_(kind) {}
+    RayPicture kind() const { return kind_; }
 
     // Whether there is a picture of this size.
     bool has(int width, int height) const;

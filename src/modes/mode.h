@@ -22,6 +22,9 @@ struct Frame {
     const scene::GpuScene& scene;
     light::Lights& lights;  // the mode has caustics cast, from its voxels
     const view::Surfaces& surfaces;
+    // The same picture in fewer pixels, which gather irradiance for those of `surfaces` (TracedSettings::reduction); null:
+    // each for itself.
+    const view::Surfaces* reduced = nullptr;
     const Settings& settings;
     // RGBA32F, of the surfaces' size; the mode writes every pixel, row 0 at the bottom.
     const gl::Texture& output;
@@ -39,8 +42,8 @@ struct Frame {
 
     // The same, with another device.
     Frame on(const gl::Device& other) const {
-        return {other,          scene,       lights,        surfaces, settings, output,
-                lookupCounters, voxelsAmong, besideCenters, part,     parts,    recorder};
+        return {other,          scene,       lights,        surfaces, reduced, settings, output,
+                lookupCounters, voxelsAmong, besideCenters, part,     parts,   recorder};
     }
 };
 

@@ -141,6 +141,7 @@ void Renderer::Impl::forgetPicture() {
     lights = {};
     cascades = {};
     surfaces = {};
+    reducedSurfaces = {};
     partSurfaces = {};
     image = {};
     nextImage = {};
@@ -230,6 +231,21 @@ base::Steps Renderer::Impl::seeCenters(const WantedPicture& asked) {
                                           .cascades = &cascades,
                                           .motion = motionOf(settings)};
     co_await surfaces.seeInSteps(device, *scene, picture);
+    co_await seeReduced(picture, settings);
+}
+
+// With the same view; its last pixels may lie across the rim of the picture.
+base::Steps Renderer::Impl::seeReduced(view::Surfaces::Picture picture, const Settings& settings) {
+    const int reduction = settings.traced.reduction;
+    if (settings.mode != Mode::Traced || reduction == 1 || !isOfLight(settings.component)) {
+        if (reducedSurfaces) reducedSurfaces = {};
+        co_return;
+    }
+    picture.width = (picture.width + reduction - 1) / reduction;
+    picture.height = (picture.height + reduction - 1) / reduction;
+    picture.cascades = nullptr;
+    co_await gl::rest(device);
+    co_await reducedSurfaces.seeInSteps(device, *scene, picture);
 }
 
 // By the mode, and the surroundings behind.
@@ -350,6 +366,7 @@ modes::Frame Renderer::Impl::frame(const Settings& settings) {
             .scene = *scene,
             .lights = lights,
             .surfaces = surfaces,
+            .reduced = reducedSurfaces ? &reducedSurfaces : nullptr,
             .settings = settings,
             .output = target().texture(),
             .lookupCounters = countLookups ? &lookupCounters : nullptr};

@@ -45,8 +45,9 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     scene::HeldScene scene;
     light::Lights lights;
     view::ShadowCascades cascades;
-    view::Surfaces surfaces;      // at the pixels' centres
-    view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased picture
+    view::Surfaces surfaces;         // at the pixels' centres
+    view::Surfaces reducedSurfaces;  // in fewer pixels, for what is gathered there
+    view::Surfaces partSurfaces;     // beside them, of the view that is drawn for an anti-aliased picture
     std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
     Mode modeKind = Mode::Traced;
     image::LinearImage image;
@@ -108,6 +109,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     base::Steps drawTemporal(const Camera& camera, const Settings& settings);
     base::Steps seePart(const Camera& camera, const Settings& settings, view::PixelPart part);
     base::Steps seeCenters(const WantedPicture& asked);
+    base::Steps seeReduced(view::Surfaces::Picture picture, const Settings& settings);
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
     void collectStats();

@@ -68,7 +68,7 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
             {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong},
             {voxels_, lit_.faces(), lit_.revision()});
     } else {
-        const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters, redraw};
+        const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters, redraw, frame.reduced};
         if (frame.besideCenters)
             co_await indirect_.carry(frame.device, inputs, settings);
         else

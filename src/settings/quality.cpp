@@ -49,6 +49,7 @@ TracedSettings settingsOf(Quality quality) {
 
 void applyQuality(TracedSettings& settings, Quality quality) {
     TracedSettings filled = settingsOf(quality);
+    filled.reduction = settings.reduction;
     filled.bounces = settings.bounces;
     filled.budgeted = settings.budgeted;
     settings = filled;
