@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "conelight/error.h"
+#include "first_picture.h"
 #include "folder.h"
 #include "io/files.h"
-#include "io/scene_file.h"
 #include "json_mutation.h"
 
 namespace conelight::fuzz {
@@ -81,14 +81,12 @@ inline std::size_t mutateGlb(const std::vector<Json>& oddValues, std::uint8_t* d
     return all.size();
 }
 
-// Loads it; what the importer says against it.
+// Loads and completes it; what the importer says against it.
 inline std::string loadGlb(const std::uint8_t* data, std::size_t size) {
     static const std::filesystem::path kFile = folder() / "scene.glb";
     io::writeFile(kFile, {data, size});
     try {
-        io::LoadOptions options;
-        options.maxTexels = std::uint64_t(1) << 20;
-        io::loadScene(kFile.string(), options);
+        loadComplete(kFile);
     } catch (const Error& error) {
         return std::string(error.what()).substr(kFile.string().size());
     }

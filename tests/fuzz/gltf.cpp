@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// JSON of a glTF file -> scene.
+// JSON of a glTF file -> scene, complete.
 #include "conelight/error.h"
+#include "first_picture.h"
 #include "folder.h"
 #include "io/files.h"
-#include "io/scene_file.h"
 #include "json_mutation.h"
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t maxSize,
@@ -20,9 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::filesystem::path kFile = conelight::fuzz::folder() / "scene.gltf";
     conelight::io::writeFile(kFile, {data, size});
     try {
-        conelight::io::LoadOptions options;
-        options.maxTexels = std::uint64_t(1) << 20;
-        conelight::io::loadScene(kFile.string(), options);
+        conelight::fuzz::loadComplete(kFile);
     } catch (const conelight::Error&) {
     }
     return 0;
