@@ -234,7 +234,8 @@ base::Steps Renderer::Impl::seeCenters(const WantedPicture& asked) {
     co_await seeReduced(picture, settings);
 }
 
-// With the same view; its last pixels may lie across the rim of the picture.
+// With the same camera. Where the size is no multiple, its sides are a little less or more wide: a rim that it does not show
+// takes what is nearest.
 base::Steps Renderer::Impl::seeReduced(view::Surfaces::Picture picture, const Settings& settings) {
     const int reduction = settings.traced.reduction;
     if (settings.mode != Mode::Traced || reduction == 1 || !isOfLight(settings.component)) {

@@ -184,9 +184,8 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"filter_levels", &TracedSettings::filterLevels, Numbers{0, 4}, "",
          "edge-stopping filter between pixels; 1: 3x3 pixels, 2: 7x7, 3: 15x15, 4: 31x31; 0: none"},
         {"reduction", &TracedSettings::reduction, Numbers{1, 4}, "",
-         "cosine- and light-sampled rays for one of N x N pixels; all show what those about them gathered on "
-         "the "
-         "same surface: faster, contacts are softer"},
+         "cosine- and light-sampled rays for one of N x N pixels; all show what those about them gathered "
+         "on the same surface: faster, contacts are softer"},
         {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
          "cosine-sampled rays per voxel face and update, and as many light-sampled ones"},
         {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
